@@ -14,6 +14,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
+#include "model/tree/node_types.hpp"
 #include "report/text/report.hpp"
 #include "trace/conform/conform.hpp"
 #include "trace/conform/evidence_of_logs.hpp"
@@ -135,8 +136,43 @@ std::string allowed_text(const BehaviorTree& tree,
   return text + (allowed.size() > kMostTold ? ", ..." : "");
 }
 
+// Lets a leaf run as long as it likes; false where it may already.
+bool forget_duration(Node& leaf) {
+  const bool is_bound =
+      leaf.type == NodeType::Action && leaf.duration.has_value();
+  if (is_bound) {
+    leaf.duration.reset();
+    leaf.contract.may_run = true;
+  }
+  return is_bound;
+}
+
+// Lets a leaf answer as it likes; false where it may already.
+bool forget_answers(Node& leaf) {
+  LeafContract& contract = leaf.contract;
+  const LeafContract any;
+  const bool may_run = leaf.type == NodeType::Action;
+  const bool is_bound = !contract.may_succeed || !contract.may_fail ||
+                        (may_run && !contract.may_run) ||
+                        contract.requirement_program != kNoProgram ||
+                        contract.decision_program != kNoProgram ||
+                        !contract.requirement.is_true() ||
+                        !contract.decision.is_true();
+  if (is_bound) {
+    contract.may_succeed = contract.may_fail = true;
+    contract.may_run = may_run;
+    contract.requirement = any.requirement;
+    contract.decision = any.decision;
+    contract.unmet = any.unmet;
+    contract.decided_against = any.decided_against;
+    contract.requirement_program = contract.decision_program = kNoProgram;
+  }
+  return is_bound;
+}
+
 std::string told(const NamedLog& named, const BehaviorTree& tree,
                  const LoggedNodes& nodes, const Conformance& found,
+                 const std::string& left_contract,
                  const std::string& other_profile) {
   const std::size_t count = named.log.transitions.size();
   if (found.stopped != StopReason::None) {
@@ -161,7 +197,9 @@ std::string told(const NamedLog& named, const BehaviorTree& tree,
     text += fmt::format("{}the tree could do: {}\n", kIndent,
                         allowed_text(tree, found.allowed));
   }
-  text += fmt::format("{}{}\n", kIndent, meaning_of(tree, event, found));
+  text += fmt::format(
+      "{}{}\n", kIndent,
+      left_contract.empty() ? meaning_of(tree, event, found) : left_contract);
   if (!other_profile.empty()) {
     text += fmt::format("{}with --profile {} the log conforms\n", kIndent,
                         other_profile);
@@ -221,8 +259,73 @@ class Following {
       evidence_.add(named.log, nodes, std::int64_t{options_.tick_ms} * 1000);
     }
     const bool is_refused = found.refused && found.contradiction.empty();
-    return told(named, lowered_.tree, nodes, found,
-                is_refused ? other_profile(named.log) : "");
+    std::string contract;
+    if (is_refused) contract = left_contract(named.log, nodes, found);
+    const bool is_other = is_refused && contract.empty();
+    return told(named, lowered_.tree, nodes, found, contract,
+                is_other ? other_profile(named.log) : "");
+  }
+
+  // A leaf and the clause of its contract without which a refused log goes on,
+  // in words; "" for none. Of several, the one that goes on furthest.
+  std::string left_contract(const BehaviorLog& log, const LoggedNodes& nodes,
+                            const Conformance& refused) const {
+    std::vector<NodeId> leaves;  // that the log knows by then
+    for (std::size_t i = 0; i <= *refused.refused; ++i) {
+      const NodeId node = nodes.node(log.transitions[i].uid);
+      if (!lowered_.tree.node(node).children.empty()) continue;
+      if (std::ranges::find(leaves, node) == leaves.end()) {
+        leaves.push_back(node);
+      }
+    }
+    for (const bool is_time : {true, false}) {
+      const auto forget = is_time ? forget_duration : forget_answers;
+      if (!goes_on(log, nodes, refused, leaves, forget)) continue;
+      Conformance furthest = refused;
+      NodeId leaf{};
+      for (const NodeId each : leaves) {
+        const auto found = goes_on(log, nodes, furthest, {each}, forget);
+        if (!found) continue;
+        furthest = *found;
+        leaf = each;
+        if (furthest.conforms()) break;
+      }
+      if (furthest.records == refused.records && !furthest.conforms()) continue;
+      const Node& node = lowered_.tree.node(leaf);
+      const std::string clause =
+          is_time ? ":duration " + duration_text(*node.duration)
+                  : "what it answers, and when";
+      return fmt::format(
+          "`{}` leaves its contract ({}): without it the log {} ({})",
+          short_name(lowered_.tree, leaf), clause,
+          furthest.conforms() || !furthest.refused
+              ? "conforms"
+              : fmt::format("goes on to record {}", *furthest.refused + 1),
+          line_of(lowered_.tree, leaf));
+    }
+    return "";
+  }
+
+  // What becomes of a log where these leaves forget a clause; nothing where it
+  // goes no further than before.
+  std::optional<Conformance> goes_on(const BehaviorLog& log,
+                                     const LoggedNodes& nodes,
+                                     const Conformance& before,
+                                     const std::vector<NodeId>& leaves,
+                                     bool (*forget)(Node&)) const {
+    BehaviorTree tree = lowered_.tree;
+    bool is_other = false;
+    for (const NodeId leaf : leaves)
+      is_other |= forget(tree.nodes[index(leaf)]);
+    if (!is_other) return std::nullopt;
+    const TreeInput& input = lowered_.input;
+    const auto network =
+        lower_values(tree, {input.name, input.text}, lowered_.network.ticks);
+    if (!network.value) return std::nullopt;
+    const CompiledNetwork system(*network.value);
+    Conformance found = conform(tree, system, log, nodes, watch_.limits);
+    const bool is_further = found.conforms() || found.records > before.records;
+    return is_further ? std::optional(std::move(found)) : std::nullopt;
   }
 
   // Those of its own family first, the newest of them first.

@@ -7,11 +7,13 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "check/check.hpp"
@@ -34,6 +36,7 @@ constexpr std::string_view kDriver =
 
 #include <chrono>
 #include <cstdio>
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -111,6 +114,7 @@ property takes_off: takeoff.success precedes goto_waypoint@39.ticked
 property watched:
   whenever goto_waypoint@27.ticked then measure_battery.ticked within 1 ticks
 property tick_rule: in no tick: start_drone.answer == failure
+property answers: never measure_battery.running
 property past: never land@46.ticked and not once takeoff.success
 property left: never goto_waypoint@39.halted
 property can: possible root.success
@@ -133,6 +137,26 @@ BehaviorLog some_log(const BehaviorTree& tree, const Network& network,
   REQUIRE(log.value);
   log.value->begin += 1;
   return std::move(*log.value);
+}
+
+// As if every leaf that answers at once were a SimpleActionNode, which is
+// RUNNING before it calls its function.
+BehaviorLog with_simple_actions(BehaviorLog log) {
+  std::vector<LogTransition> records;
+  for (LogTransition record : log.transitions) {
+    const bool is_leaf = std::ranges::none_of(
+        log.nodes,
+        [&](const LogNode& node) { return node.parent == record.uid; });
+    if (is_leaf && is_completed(record.after) &&
+        record.before != LogStatus::Running) {
+      records.push_back(
+          {record.time, record.uid, record.before, LogStatus::Running});
+      record.before = LogStatus::Running;
+    }
+    records.push_back(record);
+  }
+  log.transitions = std::move(records);
+  return log;
 }
 
 std::string events_of(const BehaviorLog& log) {
@@ -174,9 +198,12 @@ TEST_CASE("monitors as C++ say of logs what trace says") {
   std::string events;
   std::string expected;
   int decided = 0;
+  std::size_t added = 0;
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
-    BehaviorLog log = some_log(*tree.value, network, seed);
-    events += events_of(log);
+    const BehaviorLog log = some_log(*tree.value, network, seed);
+    const BehaviorLog simple = with_simple_actions(log);
+    added += simple.transitions.size() - log.transitions.size();
+    events += events_of(log) + events_of(simple);
     // The lines of the tree are not in its log: rules are asked by its names.
     for (std::size_t n = 0; n < log.nodes.size(); ++n) {
       REQUIRE(log.nodes[n].uid == n + 1);
@@ -184,13 +211,22 @@ TEST_CASE("monitors as C++ say of logs what trace says") {
     const auto told =
         watch_log_as(nodes, "a.btlog", log, kTickTime, *rules.value, source);
     REQUIRE(told.value);
+    std::string outlooks;
     for (const WatchedRule& rule : told.value->rules) {
-      expected += static_cast<char>('0' + static_cast<int>(rule.outlook));
+      outlooks += static_cast<char>('0' + static_cast<int>(rule.outlook));
       decided += rule.outlook != Outlook::Open;
     }
-    expected += '\n';
+    outlooks += '\n';
+    expected += outlooks + outlooks;
+    const auto of_simple =
+        watch_log_as(nodes, "a.btlog", simple, kTickTime, *rules.value, source);
+    REQUIRE(of_simple.value);
+    for (std::size_t i = 0; i < of_simple.value->rules.size(); ++i) {
+      CHECK(of_simple.value->rules[i].outlook == told.value->rules[i].outlook);
+    }
   }
   CHECK(decided > 150);
+  CHECK(added > 100);
   std::ofstream(folder.path() / "events") << events;
   const Outcome compiled = run_in(
       folder.path(),

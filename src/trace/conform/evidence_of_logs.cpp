@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "model/btcpp/known_types.hpp"
 #include "model/tree/leaf_names.hpp"
@@ -44,9 +45,17 @@ void LogEvidence::add(const BehaviorLog& log, const LoggedNodes& nodes,
     began.erase(found);
     return length;
   };
+  const LogTransition* last = nullptr;
   for (const LogTransition& record : log.transitions) {
-    tick = ticks.tick_at(record.time);
+    const std::int64_t last_tick =
+        std::exchange(tick, ticks.tick_at(record.time));
+    const LogTransition* before = std::exchange(last, &record);
     Counts& counts = nodes_[index(nodes.node(record.uid))];
+    // RUNNING, and at once the answer: a SimpleActionNode calls its function.
+    const bool is_at_once = before != nullptr && before->uid == record.uid &&
+                            before->after == LogStatus::Running &&
+                            last_tick == tick && !is_own(log);
+    if (is_at_once && is_completed(record.after)) --counts.running;
     if (record.after == LogStatus::Running) {
       ++counts.running;
       began[record.uid] = tick;
@@ -64,6 +73,28 @@ void LogEvidence::add(const BehaviorLog& log, const LoggedNodes& nodes,
     Counts& counts = nodes_[index(nodes.node(uid))];
     counts.longest_open = std::max(counts.longest_open, tick - since + 1);
   }
+}
+
+// n samples spread evenly up to some length stay below it by longest / n, on
+// the average; so that is the margin.
+std::string LogEvidence::duration_text(const Counts& all) {
+  const std::size_t samples = all.success + all.failure;
+  if (samples == 0) return "\n  :duration [1,inf])  ; it never answered\n";
+  const auto n = static_cast<std::int64_t>(samples);
+  const std::int64_t margin = (all.longest + n - 1) / n;
+  const std::int64_t least =
+      std::max(all.shortest - margin, std::min<std::int64_t>(all.shortest, 1));
+  const bool is_open = all.longest_open > all.longest;
+  std::string text = fmt::format(
+      "\n  :duration [{},{}])  ; {}: {}", least,
+      is_open ? "inf" : fmt::format("{}", all.longest + margin),
+      samples == 1 ? "1 sample" : counted(samples, "samples"), all.shortest);
+  if (all.longest > all.shortest) text += fmt::format(" to {}", all.longest);
+  text += fmt::format(" ticks, and a margin of {}", margin);
+  if (is_open) {
+    text += fmt::format("; {} ticks without an answer", all.longest_open);
+  }
+  return text + "\n";
 }
 
 std::string LogEvidence::leaves_text() const {
@@ -104,15 +135,7 @@ std::string LogEvidence::leaves_text() const {
         is_action ? "defaction" : "defcondition",
         contract_name(name).value_or(quoted(one_line(name))), all.success,
         all.failure, all.running, all.halted, fmt::join(returns, " "));
-    if (is_action && all.running > 0) {
-      const bool is_open =
-          all.longest_open > all.longest || all.shortest > all.longest;
-      const std::int64_t least = all.shortest > all.longest ? 1 : all.shortest;
-      text += is_open
-                  ? fmt::format("\n  :duration [{},inf]", least)
-                  : fmt::format("\n  :duration [{},{}]", least, all.longest);
-    }
-    text += ")\n";
+    text += is_action && all.running > 0 ? duration_text(all) : ")\n";
   }
   return text;
 }

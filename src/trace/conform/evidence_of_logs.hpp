@@ -27,8 +27,9 @@ class LogEvidence {
            std::int64_t tick_time);
 
   // A contract for each type of leaf that the logs show, as a file for
-  // --leaves: the answers seen and how many ticks they took, counts as
-  // comments. Leaves of the engine itself have no contracts.
+  // --leaves: the answers seen and how many ticks they took, with a
+  // margin that shrinks with their number, counts as comments. Leaves of the
+  // engine itself have no contracts.
   std::string leaves_text() const;
 
   // "takeoff: failure": what the report has proven possible and no log shows,
@@ -53,6 +54,7 @@ class LogEvidence {
     std::int64_t longest_open = 0;  // of those halted, or running at the end
   };
 
+  static std::string duration_text(const Counts& all);
   bool is_shown(NodeId node, NodeQuestion question) const;
   template <class Visit>
   void each_possible(const DefaultReport& report, Visit visit) const;

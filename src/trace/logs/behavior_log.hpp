@@ -4,6 +4,7 @@
 // run written as such a log, for Groot2.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -86,14 +87,26 @@ bool is_log(std::string_view file, std::string_view bytes);
 // True for a log that btcheck wrote: its times are synthetic.
 bool is_own(const BehaviorLog& log);
 
+// Which pauses part two ticks, in microseconds: within one, changes follow one
+// another at once but where a function blocks; between two, the executor
+// sleeps.
+inline constexpr std::int64_t kTickPause = 5'000;  // as good a mark as there is
+inline constexpr std::int64_t kLeastPause = 1'000;  // less is within a tick
+// As much or more parts two ticks of so long each: three quarters, as a tick
+// itself takes some of the time.
+constexpr std::int64_t most_pause(std::int64_t tick_time) {
+  return std::max(tick_time / 4 * 3, kLeastPause);
+}
+
 // Counts the ticks of a log, record by record. A log that btcheck wrote has
-// them. In others a pause of 5 ms or more parts two ticks, and the time from
-// the beginning of the one to that of the other says how many there were,
-// `tick_time` microseconds each.
+// them. In others a pause parts two ticks, and the time from the beginning of
+// the one to that of the other says how many there were, `tick_time`
+// microseconds each.
 class TickCounter {
  public:
-  TickCounter(const BehaviorLog& log, std::int64_t tick_time)
-      : is_own_(is_own(log)), tick_time_(tick_time) {}
+  TickCounter(const BehaviorLog& log, std::int64_t tick_time,
+              std::int64_t pause = kTickPause)
+      : is_own_(is_own(log)), tick_time_(tick_time), pause_(pause) {}
 
   // The tick of a record at this time, from 1; never less than the last one.
   std::int64_t tick_at(std::int64_t time);
@@ -101,6 +114,7 @@ class TickCounter {
  private:
   bool is_own_;
   std::int64_t tick_time_;
+  std::int64_t pause_;
   std::int64_t tick_ = 0;
   std::int64_t begin_ = 0;  // of this tick
   std::int64_t last_ = 0;   // the record before

@@ -2,8 +2,9 @@
 //
 // What the engine's TreeNode::setStatus tells a logger, told as what nodes do:
 // a node with children is RUNNING once it is ticked, a leaf once it has
-// answered so; a node that goes from RUNNING to IDLE has been halted, and one
-// that goes there from an answer has been reset, which is no event.
+// answered so, or while its function is called; a node that goes from RUNNING
+// to IDLE has been halted, and one that goes there from an answer has been
+// reset, which is no event.
 #include "trace/logs/log_run.hpp"
 
 #include <fmt/format.h>
@@ -33,8 +34,9 @@ const char* word_of(LogStatus answer) {
 
 }  // namespace
 
-LogPlayer::LogPlayer(const BehaviorLog& log, std::int64_t tick_time)
-    : log_(log), ticks_(log, tick_time) {
+LogPlayer::LogPlayer(const BehaviorLog& log, std::int64_t tick_time,
+                     std::int64_t pause)
+    : log_(log), ticks_(log, tick_time, pause) {
   heading_.ticks = "root";
   const std::string tree = log.tree.empty() ? "tree" : log.tree;
   heading_.nodes.push_back({"", "BehaviorTree", tree, 0, 0, std::nullopt});
@@ -104,9 +106,10 @@ bool LogPlayer::play_end(const std::function<bool()>& see) {
 }
 
 bool LogPlayer::end_if_over(const std::function<bool()>& see) {
+  see_ = &see;
+  if (!settle()) return false;
   const LogStatus answer = answer_of_tick();
   if (is_over_ || !is_completed(answer)) return true;
-  see_ = &see;
   is_over_ = true;
   state_.statuses[0] = word_of(answer);
   return reach(0, word_of(answer), phase_of(answer)) &&
@@ -147,6 +150,7 @@ bool LogPlayer::rest(std::size_t node, Phase phase) {
 
 bool LogPlayer::begin_tick(std::int64_t tick) {
   if (tick == state_.tick) return true;
+  if (!settle()) return false;
   if (state_.tick > 0 && !is_over_ && !end_tick()) return false;
   is_over_ = false;
   const std::int64_t passed = state_.tick == 0 ? tick - 1 : tick - state_.tick;
@@ -192,6 +196,13 @@ bool LogPlayer::end_tick() {
 
 bool LogPlayer::read(const LogTransition& record) {
   const std::size_t node = number_of(record.uid);
+  const bool is_answer =
+      record.after != LogStatus::Running && record.after != LogStatus::Idle;
+  if (taken_up_ == node && is_answer) {
+    taken_up_.reset();
+  } else if (!settle()) {
+    return false;
+  }
   const LogStatus before = std::exchange(status_[node], record.after);
   const bool was_halted = halted_before_ && record.after == LogStatus::Idle &&
                           heading_.nodes[*halted_before_].parent == node;
@@ -224,10 +235,16 @@ bool LogPlayer::read(const LogTransition& record) {
 bool LogPlayer::take_up(std::size_t node, bool is_leaf) {
   if (!reach(node, "tick_node", Phase::Here)) return false;
   state_.statuses[node] = "running";
-  if (is_leaf) {
-    return reach(node, "running", Phase::Running) && rest(node, Phase::Running);
-  }
-  return reach(node, "called", Phase::Waiting);
+  if (!is_leaf) return reach(node, "called", Phase::Waiting);
+  taken_up_ = node;
+  return !is_own(log_) || settle();  // ours says RUNNING as an answer only
+}
+
+// The leaf that became RUNNING last has answered so.
+bool LogPlayer::settle() {
+  const auto leaf = std::exchange(taken_up_, std::nullopt);
+  return !leaf || (reach(*leaf, "running", Phase::Running) &&
+                   rest(*leaf, Phase::Running));
 }
 
 bool LogPlayer::answer(std::size_t node, LogStatus status) {

@@ -37,12 +37,16 @@ enum class Unseen : std::uint8_t {
 //
 // A record is one or more states: a node is ticked, answers, gives control
 // back. Behind the last of them no node is in an event, as between the steps of
-// a tree.
+// a tree; but for a leaf that became RUNNING last. The next record tells
+// whether that was its answer: SimpleActionNode sets it before it calls its
+// function, and answers in the same tick (src/action_node.cpp of 4.10
+// and 3.8.8). At the end of a log it is not known.
 class LogPlayer {
  public:
-  // The log must outlive it. `tick_time`: microseconds of a tick, for logs that
-  // btcheck has not written.
-  LogPlayer(const BehaviorLog& log, std::int64_t tick_time);
+  // The log must outlive it. `tick_time` and `pause`, in microseconds, are for
+  // logs that btcheck has not written: see TickCounter.
+  LogPlayer(const BehaviorLog& log, std::int64_t tick_time,
+            std::int64_t pause = kTickPause);
 
   // The run without its states.
   const RecordedRun& heading() const { return heading_; }
@@ -72,6 +76,7 @@ class LogPlayer {
   LogStatus answer_of_tick() const;
   bool read(const LogTransition& record);
   bool take_up(std::size_t node, bool is_leaf);
+  bool settle();
   bool answer(std::size_t node, LogStatus status);
   bool reach(std::size_t node, const char* location, Phase phase);
   bool show(std::size_t node, std::string event);
@@ -86,6 +91,7 @@ class LogPlayer {
   std::vector<bool> is_silent_;     // by node; the tree is with its top node
   std::optional<std::size_t> maybe_halted_;
   std::optional<std::size_t> halted_before_;  // by the record before
+  std::optional<std::size_t> taken_up_;       // a leaf, by the record before
   RecordedState state_;
   LogPlace place_;
   const std::function<bool()>* see_ = nullptr;

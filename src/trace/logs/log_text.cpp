@@ -15,7 +15,6 @@
 namespace btcheck {
 namespace {
 
-constexpr std::int64_t kPause = 5'000;  // microseconds
 // As many as a log may have between two records: its clock may be wrong.
 constexpr std::int64_t kMostTicks = 1'000'000'000;
 constexpr std::int64_t kSecond = 1'000'000;
@@ -81,7 +80,7 @@ class Teller {
  private:
   bool is_new_tick(std::int64_t before, std::int64_t now) const {
     return is_ours_ ? before / kTickTime != now / kTickTime
-                    : now - before >= kPause || now < before;
+                    : now - before >= kTickPause || now < before;
   }
 
   void tell_heading() {
@@ -136,7 +135,7 @@ std::int64_t TickCounter::tick_at(std::int64_t time) {
     tick_ = std::max({tick_, std::int64_t{1}, time / kTickTime});
   } else if (tick_ == 0) {
     tick_ = 1;
-  } else if (time - last_ >= kPause) {
+  } else if (time - last_ >= pause_) {
     const std::int64_t apart = (time - begin_ + tick_time_ / 2) / tick_time_;
     tick_ += std::clamp(apart, std::int64_t{1}, kMostTicks);
   }

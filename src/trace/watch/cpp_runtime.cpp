@@ -159,6 +159,7 @@ constexpr std::string_view kBody = R"text(
     // And with the tick its time is over: what had to come by then is lost
     // here. What is told before the next tick begins comes later than that.
     void end_tick() {
+      settle();
       if (!is_in_tick_) return;
       is_in_tick_ = false;
       if (outcome_ != Status::Running) {
@@ -184,6 +185,12 @@ constexpr std::string_view kBody = R"text(
         throw std::logic_error(
             "btcheck_monitor: begin_tick() comes before the first change");
       }
+      if (taken_up_ == node && after != Status::Running &&
+          after != Status::Idle) {
+        taken_up_ = 0;
+      } else {
+        settle();
+      }
       const std::size_t halted = halted_before_;
       halted_before_ = 0;
       status_[node] = after;
@@ -195,8 +202,8 @@ constexpr std::string_view kBody = R"text(
           location_[node] = kElsewhere;
           return see();
         }
-        reach(node, kRunning, false);
-        return rest(node);
+        taken_up_ = node;
+        return;
       }
       if (after != Status::Idle) {
         if (before != Status::Running) reach(node, kTick, true);
@@ -261,6 +268,17 @@ constexpr std::string_view kBody = R"text(
       int count = 0;
       std::array<int, 3> values{};
     };
+
+    // The leaf that became RUNNING last has answered so. An answer in the next
+    // change would have come first: SimpleActionNode is RUNNING before it calls
+    // its function.
+    void settle() {
+      const std::size_t leaf = taken_up_;
+      taken_up_ = 0;
+      if (leaf == 0) return;
+      reach(leaf, kRunning, false);
+      rest(leaf);
+    }
 
     void pass_time() {
       has_passed_ = true;
@@ -514,6 +532,7 @@ constexpr std::string_view kBody = R"text(
     Status outcome_ = Status::Running;
     std::size_t maybe_halted_ = 0;
     std::size_t halted_before_ = 0;
+    std::size_t taken_up_ = 0;  // a leaf, by the change before
     bool has_begun_ = false;
     bool is_in_tick_ = false;
     bool has_ended_ = false;

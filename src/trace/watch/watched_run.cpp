@@ -91,8 +91,9 @@ RecordedRun run_up_to(const RecordedRun& heading, Recording recording,
 // Whether another last tick is over is not known.
 void play_log(
     RecordedWatch& watch, const BehaviorLog& log, std::int64_t tick_time,
-    const std::function<bool(const LogPlayer&, const RecordedState&)>& show) {
-  LogPlayer player(log, tick_time);
+    const std::function<bool(const LogPlayer&, const RecordedState&)>& show,
+    std::int64_t pause = kTickPause) {
+  LogPlayer player(log, tick_time, pause);
   const auto see = [&](const RecordedState& state) {
     watch.see(state, [&](std::size_t n) { return player.unseen(n); });
     return show(player, state);
@@ -108,6 +109,48 @@ void play_log(
   later.event.clear();
   later.step = "time passes";
   see(later);
+}
+
+// Whether some pause may part two ticks or stand within one: the executor may
+// have slept, or a function blocked.
+bool has_doubtful_ticks(const BehaviorLog& log, std::int64_t tick_time) {
+  const std::int64_t most = std::max(most_pause(tick_time), kTickPause + 1);
+  const auto is_doubtful = [&](const LogTransition& one,
+                               const LogTransition& next) {
+    const std::int64_t pause = next.time - one.time;
+    return pause >= kLeastPause && pause < most;
+  };
+  return !is_own(log) &&
+         std::ranges::adjacent_find(log.transitions, is_doubtful) !=
+             log.transitions.end();
+}
+
+// Takes back what is decided otherwise where all doubtful pauses part two
+// ticks, or none does.
+void take_back_guesses(const RecordedRun& heading, const BehaviorLog& log,
+                       std::int64_t tick_time, const PropertyFile& rules,
+                       const SourceText& source,
+                       std::vector<WatchedRule>& told) {
+  if (!has_doubtful_ticks(log, tick_time)) return;
+  for (const std::int64_t pause : {kLeastPause, most_pause(tick_time)}) {
+    auto made = RecordedWatch::make(heading, Recording::Log, rules, source);
+    RecordedWatch& watch = **made.value;
+    const auto go_on = [](const LogPlayer&, const RecordedState&) {
+      return true;
+    };
+    play_log(watch, log, tick_time, go_on, pause);
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      WatchedRule& rule = told[i];
+      if (rule.outlook == Outlook::Open ||
+          watch.rules()[i].run.outlook() == rule.outlook) {
+        continue;
+      }
+      rule.outlook = Outlook::Open;
+      rule.is_guessed = true;
+      rule.record.reset();
+      rule.run.reset();
+    }
+  }
 }
 
 // The branches of a Parallel of a .btf tree go side by side, and a log that is
@@ -198,6 +241,7 @@ Result<WatchReport> watch_log_as(const RecordedRun& heading,
     }
     report.rules.push_back(std::move(rule));
   }
+  take_back_guesses(heading, log, tick_time, rules, source, report.rules);
   result.value = std::move(report);
   return result;
 }
@@ -260,6 +304,11 @@ std::string word_of(const WatchedRule& rule) {
 
 std::string moment_of(const WatchedRule& rule) {
   if (rule.outlook == Outlook::Open) {
+    if (rule.is_guessed) {
+      return "  (a pause may be between two ticks or within one; --tick-ms "
+             "says "
+             "how long they are)";
+    }
     if (!rule.has_unknown) return "";
     return "  (what it asks for is not known in each state)";
   }

@@ -27,6 +27,8 @@ struct WatchedRule {
   bool is_question = false;  // `possible`: satisfied where it was shown
   bool is_expected = false;  // the file expects it to be violated
   bool has_unknown = false;  // something that it asks for was not known
+  // Open, and decided if ticks began where they most likely did.
+  bool is_guessed = false;
   std::optional<std::size_t> record;  // of a log, from 1
   int tick = 0;
   std::int64_t time = 0;  // of a log: microseconds since it began
