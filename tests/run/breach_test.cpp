@@ -353,7 +353,8 @@ std::string halting_leaves(const std::string& halt) {
   return R"(exec python3 -c '
 import json, sys, threading, time, os
 def say(id, answer):
-    print(json.dumps({"id": id, "answer": answer}), flush=True)
+    line = json.dumps({"id": id, "answer": answer}) + "\n"
+    os.write(1, line.encode())  # whole, whichever threads say something
 ticks = 0
 for line in sys.stdin:
     m = json.loads(line)
@@ -377,8 +378,8 @@ TEST_CASE("those that are halted in one tick are waited for together") {
   ProcessLeaves leaves(
       lowered.tree, system,
       {halting_leaves(
-           R"(threading.Timer(0.5, say, (m["id"], "halted")).start())"),
-       900ms,
+           R"(threading.Timer(2, say, (m["id"], "halted")).start())"),
+       20s,
        100,
        {}});
   REQUIRE(leaves.begin() == "");
@@ -387,8 +388,8 @@ TEST_CASE("those that are halted in one tick are waited for together") {
   const auto spent = std::chrono::steady_clock::now() - begun;
   CHECK(driven.breaches.empty());
   CHECK(driven.lines.find("root=success") != std::string::npos);
-  CHECK(spent >= 500ms);
-  CHECK(spent < 1500ms);
+  CHECK(spent >= 2s);
+  CHECK(spent < 6s);  // one after another they take 8
 }
 
 TEST_CASE("who does not halt in time is told of, each by name") {
@@ -397,18 +398,18 @@ TEST_CASE("who does not halt in time is told of, each by name") {
   ProcessLeaves leaves(
       lowered.tree, system,
       {halting_leaves(R"(m["node"] == "b" and say(m["id"], "halted"))"),
-       300ms,
+       3s,
        100,
        {}});
   REQUIRE(leaves.begin() == "");
   const auto begun = std::chrono::steady_clock::now();
   const Driven driven = drive(lowered, system, leaves, OnBreach::GoOn, 3);
-  CHECK(std::chrono::steady_clock::now() - begun < 900ms);
+  CHECK(std::chrono::steady_clock::now() - begun < 6s);
   REQUIRE(driven.breaches.size() == 3);
   CHECK(driven.breaches[0].text ==
-        "`a` has not answered within 300 ms, when it was halted");
+        "`a` has not answered within 3000 ms, when it was halted");
   CHECK(driven.breaches[1].text ==
-        "`c` has not answered within 300 ms, when it was halted");
+        "`c` has not answered within 3000 ms, when it was halted");
   CHECK(driven.breaches[2].kind == BreachKind::NotHalted);
 }
 
@@ -449,14 +450,14 @@ TEST_CASE("a process that closes its output and lives is waited for once") {
           "the process of the leaves has closed its output");
     leaves.end("breached");
   }
-  CHECK(std::chrono::steady_clock::now() - begun < 2s);
+  CHECK(std::chrono::steady_clock::now() - begun < 15s);
 }
 
 TEST_CASE("a process that is not ready is said to be so") {
   const LoweredTree lowered("(BehaviorTree :name t (Action :ID a))");
   const CompiledNetwork system(lowered.network);
   const auto complaint = [&](const std::string& command) {
-    ProcessLeaves leaves(lowered.tree, system, {command, 300ms, 100, {}});
+    ProcessLeaves leaves(lowered.tree, system, {command, 20s, 100, {}});
     return leaves.begin();
   };
   CHECK(complaint("exit 2") ==
