@@ -18,6 +18,7 @@
 #include "check/replay/replay.hpp"
 #include "model/btcpp/tree/entry_programs.hpp"
 #include "model/tree/tree.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
@@ -84,6 +85,7 @@ class Execution {
 
   std::optional<Refutation> refusal(std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      ask_budget();
       const ScriptStep* refused = values_.refused(scripts_of(run_.steps[i]));
       if (refused != nullptr) {
         return Refutation{refused->program, words_of(*refused)};

@@ -13,6 +13,7 @@
 
 #include "model/btf/trees.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 #include "text/numbers.hpp"
 
 namespace btcheck::btf {
@@ -407,6 +408,7 @@ TreeDraft read_tree(const Reading& reading, const Variables& variables,
     const auto number = static_cast<std::uint32_t>(tree.size());
     if (number > 0) tree[next.parent].children.push_back(number);
     children.clear();
+    ask_budget();
     tree.push_back(NodeReader(reading, variables, next.form).read(children));
     for (auto child = children.rbegin(); child != children.rend(); ++child) {
       work.push_back({*child, number});

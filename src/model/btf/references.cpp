@@ -20,6 +20,7 @@
 
 #include "model/btf/trees.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck::btf {
 namespace {
@@ -284,6 +285,7 @@ TreeForms::Expansion TreeForms::expand(
     const Work next = work.back();
     work.pop_back();
     const NodeDraft& draft = trees_[next.tree][next.node];
+    ask_budget();
     words += draft.words;
     if (result.drafts.size() == kMostNodes || words > kMostWords) {
       report_too_large(reading_, draft.node.span, words);

@@ -26,6 +26,7 @@
 #include <utility>
 
 #include "model/tree/value_range.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
@@ -76,6 +77,7 @@ class Printer {
 
   enum class Outcome { Exact, TooLarge, TooLong };
   Outcome run(const Expression& expression) {
+    ask_budget();
     if (expression.is_true()) stack_.push_back(constant(1));
     for (const Term& term : expression.terms()) {
       push(term);

@@ -6,6 +6,7 @@
 // a keyword of these languages, or of the C that SPIN makes of a model.
 #include "model/export/names.hpp"
 
+#include "text/budget.hpp"
 #include "text/numbers.hpp"
 #include "text/utf8.hpp"
 
@@ -46,6 +47,7 @@ ExportNames::ExportNames(const Network& network)
     name_values(id, stem);
   }
   for (const Automaton& automaton : network.automata) {
+    ask_budget();
     name_automaton(automaton);
   }
   for (const Automaton& automaton : network.automata) {

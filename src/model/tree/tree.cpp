@@ -10,6 +10,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
 
 namespace btcheck {
 namespace {
@@ -33,6 +37,14 @@ Bearers bearers_of(const BehaviorTree& tree, const Node& named) {
 std::string name_of_its_own(const BehaviorTree& tree, NodeId node) {
   const std::string& path = tree.node(node).path;
   return path.empty() ? unique_name(tree, node) : path;
+}
+
+std::string short_name_among(const BehaviorTree& tree, NodeId node,
+                             const Bearers& bearers) {
+  const Node& named = tree.node(node);
+  if (bearers.of_name == 1) return named.name;
+  if (bearers.in_line > 1) return name_of_its_own(tree, node);
+  return fmt::format("{}@{}", named.name, named.span.line);
 }
 
 }  // namespace
@@ -74,11 +86,24 @@ std::string unique_name(const BehaviorTree& tree, NodeId node) {
 }
 
 std::string short_name(const BehaviorTree& tree, NodeId node) {
-  const Node& named = tree.node(node);
-  const Bearers bearers = bearers_of(tree, named);
-  if (bearers.of_name == 1) return named.name;
-  if (bearers.in_line > 1) return name_of_its_own(tree, node);
-  return fmt::format("{}@{}", named.name, named.span.line);
+  return short_name_among(tree, node, bearers_of(tree, tree.node(node)));
+}
+
+std::vector<std::string> short_names(const BehaviorTree& tree) {
+  std::unordered_map<std::string_view, std::size_t> of_name;
+  std::map<std::pair<std::string_view, int>, std::size_t> in_line;
+  for (const Node& node : tree.nodes) {
+    ++of_name[node.name];
+    ++in_line[{node.name, node.span.line}];
+  }
+  std::vector<std::string> names;
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    const Node& node = tree.nodes[n];
+    names.push_back(short_name_among(
+        tree, NodeId{n},
+        {of_name[node.name], in_line[{node.name, node.span.line}]}));
+  }
+  return names;
 }
 
 std::string name_and_line(const BehaviorTree& tree, NodeId node) {

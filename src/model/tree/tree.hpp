@@ -489,6 +489,8 @@ std::string unique_name(const BehaviorTree& tree, NodeId node);
 // The name when no other node has it, else with its line, "land@23"; where that
 // is not enough, the path of an XML node, or "land_btn12".
 std::string short_name(const BehaviorTree& tree, NodeId node);
+// The same of all nodes, in one go.
+std::vector<std::string> short_names(const BehaviorTree& tree);
 
 // The name, or the type where the reader made the name of it and a line: what
 // stays when lines move.

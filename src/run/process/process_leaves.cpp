@@ -51,12 +51,12 @@ std::string json_value(const StateVariable& variable, int value) {
 // What begins the conversation: the leaves that will be asked for.
 std::string begin_line(const BehaviorTree& tree, const ProcessPlan& plan) {
   Json leaves = Json::array();
+  const std::vector<std::string> names = short_names(tree);
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     const Node& node = tree.nodes[n];
     if (!is_leaf(node.type) || node.id.empty()) continue;
-    leaves.push(Json{{"leaf", node.id},
-                     {"node", short_name(tree, NodeId{n})},
-                     {"type", type_name(node.type)}});
+    leaves.push(Json{
+        {"leaf", node.id}, {"node", names[n]}, {"type", type_name(node.type)}});
   }
   std::string variables;
   for (std::uint32_t v = 0; v < tree.variables.size(); ++v) {

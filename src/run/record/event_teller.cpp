@@ -29,8 +29,8 @@ EventTeller::EventTeller(const BehaviorTree& tree,
       meanings_.push_back(meaning_of(automaton, edge));
     }
   }
+  names_ = short_names(tree);
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
-    names_.push_back(short_name(tree, NodeId{n}));
     root_of_.push_back(btcheck::root_of(tree, NodeId{n}));
   }
   for (const StateVariable& variable : tree.variables) {

@@ -318,11 +318,8 @@ std::string tree_text(const RecordedRun& run, std::size_t state,
 std::vector<std::string> tick_line_keys(const BehaviorTree& tree) {
   std::map<std::string, int> uses = {{"root", 1}};
   for (const StateVariable& variable : tree.variables) ++uses[variable.name];
-  std::vector<std::string> keys;
-  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
-    keys.push_back(short_name(tree, NodeId{n}));
-    ++uses[keys.back()];
-  }
+  std::vector<std::string> keys = short_names(tree);
+  for (const std::string& key : keys) ++uses[key];
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     if (uses[keys[n]] > 1) keys[n] = unique_name(tree, NodeId{n});
     const bool is_word = keys[n].find_first_of(" \t\"=,") == keys[n].npos;
