@@ -298,7 +298,7 @@ class Following {
       return fmt::format(
           "`{}` leaves its contract ({}): without it the log {} ({})",
           short_name(lowered_.tree, leaf), clause,
-          furthest.conforms() || !furthest.refused
+          furthest.conforms()
               ? "conforms"
               : fmt::format("goes on to record {}", *furthest.refused + 1),
           line_of(lowered_.tree, leaf));

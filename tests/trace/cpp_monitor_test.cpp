@@ -36,7 +36,6 @@ constexpr std::string_view kDriver =
 
 #include <chrono>
 #include <cstdio>
-#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <memory>

@@ -148,7 +148,6 @@ void take_back_guesses(const RecordedRun& heading, const BehaviorLog& log,
       rule.outlook = Outlook::Open;
       rule.is_guessed = true;
       rule.record.reset();
-      rule.run.reset();
     }
   }
 }
@@ -229,19 +228,22 @@ Result<WatchReport> watch_log_as(const RecordedRun& heading,
     if (place.record) rule.record = *place.record + 1;
     rule.tick = decided[i].second;
     rule.time = place.time;
-    if (rule.outlook == Outlook::Violated) {
-      rule.run = run_up_to(
-          heading, Recording::Log, rules, source, i, seen.decided.value_or(0),
-          rule, [&](RecordedWatch& again, const Show& show) {
-            play_log(again, log, tick_time,
-                     [&](const LogPlayer&, const RecordedState& state) {
-                       return show(state);
-                     });
-          });
-    }
     report.rules.push_back(std::move(rule));
   }
   take_back_guesses(heading, log, tick_time, rules, source, report.rules);
+  for (std::size_t i = 0; i < report.rules.size(); ++i) {
+    WatchedRule& rule = report.rules[i];
+    if (rule.outlook != Outlook::Violated) continue;
+    rule.run =
+        run_up_to(heading, Recording::Log, rules, source, i,
+                  watch.rules()[i].decided.value_or(0), rule,
+                  [&](RecordedWatch& again, const Show& show) {
+                    play_log(again, log, tick_time,
+                             [&](const LogPlayer&, const RecordedState& state) {
+                               return show(state);
+                             });
+                  });
+  }
   result.value = std::move(report);
   return result;
 }
@@ -306,8 +308,7 @@ std::string moment_of(const WatchedRule& rule) {
   if (rule.outlook == Outlook::Open) {
     if (rule.is_guessed) {
       return "  (a pause may be between two ticks or within one; --tick-ms "
-             "says "
-             "how long they are)";
+             "says how long they are)";
     }
     if (!rule.has_unknown) return "";
     return "  (what it asks for is not known in each state)";
