@@ -23,6 +23,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
+#include "text/budget.hpp"
 #include "trace/formats/text.hpp"
 #include "trace/run/itf.hpp"
 #include "trace/run/record.hpp"
@@ -154,24 +155,60 @@ std::string simulated_itf(const SimulatedTree& simulated, const Run& run,
   return itf_text(recorded(simulated.tree, simulated.network, run, heading));
 }
 
+namespace {
+
+// What keeps a run: neither the time nor a signal that has ended the run ends
+// its file as well.
+class MemoryAlone final : public Budget {
+ public:
+  Spent look() override {
+    return limits_of_command().overdrawn() == Spent::Memory ? Spent::Memory
+                                                            : Spent::Nothing;
+  }
+};
+
+constexpr std::size_t kSample = 64;  // steps, all much of a size
+
+// Of more than a sample: about how many bytes its file has.
+std::size_t kept_bytes(const SimulatedTree& simulated, const Run& run,
+                       const std::string& how) {
+  Run part{run.initial, {}, kNoLoop};
+  const std::size_t begin = simulated_itf(simulated, part, how).size();
+  part.steps.assign(run.steps.begin(), run.steps.begin() + kSample);
+  const std::size_t step =
+      (simulated_itf(simulated, part, how).size() - begin) / kSample;
+  return begin + step * run.steps.size();
+}
+
+}  // namespace
+
 std::string keep_run(const std::string& file, const SimulatedTree& simulated,
                      const Run& run, const std::string& how) {
-  constexpr std::size_t kSample = 64;  // steps, all much of a size
-  if (run.steps.size() > kSample) {
-    Run part{run.initial, {}, kNoLoop};
-    const std::size_t begin = simulated_itf(simulated, part, how).size();
-    part.steps.assign(run.steps.begin(), run.steps.begin() + kSample);
-    const std::size_t step =
-        (simulated_itf(simulated, part, how).size() - begin) / kSample;
-    const std::size_t all = begin + step * run.steps.size();
-    if (all > kMostInputBytes) {
-      return fmt::format(
-          "cannot write `{}`: {} steps take {} MiB, and `trace` reads {}; ask "
-          "for fewer --ticks",
-          file, run.steps.size(), all >> 20, kMostInputBytes >> 20);
+  const auto refused = [&](const std::string& reason) {
+    return fmt::format("cannot write `{}`: {}", file, reason);
+  };
+  const auto too_long = [&](std::size_t bytes) {
+    return refused(
+        fmt::format("{} steps take {} MiB, and `trace` reads {}; ask "
+                    "for fewer --ticks",
+                    run.steps.size(), bytes >> 20, kMostInputBytes >> 20));
+  };
+  MemoryAlone memory;
+  const BudgetScope scope(&memory);
+  try {
+    if (run.steps.size() > kSample) {
+      const std::size_t about = kept_bytes(simulated, run, how);
+      if (about > kMostInputBytes) return too_long(about);
     }
+    const std::string text = simulated_itf(simulated, run, how);
+    if (text.size() > kMostInputBytes) return too_long(text.size());
+    return write_file(file, text);
+  } catch (const BudgetSpent&) {
+    return refused(
+        fmt::format("--memory was reached while {} steps of {} nodes "
+                    "were put into words; raise it, or ask for fewer --ticks",
+                    run.steps.size(), simulated.tree.nodes.size()));
   }
-  return write_file(file, simulated_itf(simulated, run, how));
 }
 
 ExitCode run_simulate(const Options& options) {

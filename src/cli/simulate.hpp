@@ -49,8 +49,8 @@ std::string ending_text(const Simulation& simulation, int ticks);
 std::string simulated_itf(const SimulatedTree& simulated, const Run& run,
                           const std::string& how);
 
-// Writes it to a file. A run that is too long for `trace` to read is not
-// written. Returns what went wrong, or "".
+// Writes it to a file. A run that is too long for `trace` to read, or for
+// --memory, is not written. Returns what went wrong, or "".
 std::string keep_run(const std::string& file, const SimulatedTree& simulated,
                      const Run& run, const std::string& how);
 

@@ -78,6 +78,9 @@ Unseen LogPlayer::unseen(std::size_t node) const {
   if (maybe_halted_ == node) return Unseen::Halted;
   if (node == 0) return Unseen::Nothing;
   if (status_[node] == LogStatus::Running) return Unseen::Running;
+  if (here == "called" && status_[node] == LogStatus::Idle) {
+    return Unseen::Skipped;
+  }
   const bool is_kept = !is_own(log_) && is_completed(status_[node]);
   return is_kept ? Unseen::Repeated : Unseen::Nothing;
 }
@@ -111,6 +114,7 @@ bool LogPlayer::end_if_over(const std::function<bool()>& see) {
   const LogStatus answer = answer_of_tick();
   if (is_over_ || !is_completed(answer)) return true;
   is_over_ = true;
+  if (!let_go_below(0)) return false;
   state_.statuses[0] = word_of(answer);
   return reach(0, word_of(answer), phase_of(answer)) &&
          rest(0, phase_of(answer));
@@ -185,6 +189,7 @@ LogStatus LogPlayer::answer_of_tick() const {
 }
 
 bool LogPlayer::end_tick() {
+  if (!let_go_below(0)) return false;
   const LogStatus answer = answer_of_tick();
   if (is_completed(answer)) {
     state_.statuses[0] = word_of(answer);
@@ -203,6 +208,8 @@ bool LogPlayer::read(const LogTransition& record) {
   } else if (!settle()) {
     return false;
   }
+  const bool is_ticked = record.after != LogStatus::Idle;
+  if (is_ticked && !is_own(log_) && !call_above(node)) return false;
   const LogStatus before = std::exchange(status_[node], record.after);
   const bool was_halted = halted_before_ && record.after == LogStatus::Idle &&
                           heading_.nodes[*halted_before_].parent == node;
@@ -215,6 +222,7 @@ bool LogPlayer::read(const LogTransition& record) {
     case LogStatus::Failure:
     case LogStatus::Skipped:
       return (before == LogStatus::Running ||
+              state_.locations[node] == "called" ||
               reach(node, "tick_node", Phase::Here)) &&
              answer(node, record.after);
     case LogStatus::Idle:
@@ -233,11 +241,55 @@ bool LogPlayer::read(const LogTransition& record) {
 }
 
 bool LogPlayer::take_up(std::size_t node, bool is_leaf) {
+  if (std::erase(called_, node) > 0) {
+    state_.statuses[node] = "running";
+    return show(node, "");
+  }
   if (!reach(node, "tick_node", Phase::Here)) return false;
   state_.statuses[node] = "running";
   if (!is_leaf) return reach(node, "called", Phase::Waiting);
   taken_up_ = node;
   return !is_own(log_) || settle();  // ours says RUNNING as an answer only
+}
+
+// Nodes that leave no record before their child has one.
+bool LogPlayer::call_above(std::size_t node) {
+  std::vector<std::size_t> above;
+  for (std::size_t n = *heading_.nodes[node].parent; n != 0;
+       n = *heading_.nodes[n].parent) {
+    if (is_silent_[n]) continue;
+    if (state_.locations[n] != "start_") break;
+    above.push_back(n);
+  }
+  for (; !above.empty(); above.pop_back()) {
+    const std::size_t n = above.back();
+    called_.push_back(n);
+    if (!reach(n, "tick_node", Phase::Here) ||
+        !reach(n, "called", Phase::Waiting)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool LogPlayer::is_below(std::size_t node, std::size_t above) const {
+  while (node > above) node = *heading_.nodes[node].parent;
+  return node == above;
+}
+
+// What was ticked without a record, and has none for its answer either, was
+// skipped, or has answered what it had: its parent has gone on.
+bool LogPlayer::let_go_below(std::size_t node) {
+  const auto ended = std::ranges::partition(
+      called_, [&](std::size_t n) { return n == node || !is_below(n, node); });
+  const std::vector<std::size_t> below(ended.begin(), ended.end());
+  called_.erase(ended.begin(), ended.end());
+  return std::ranges::all_of(below, [&](std::size_t n) {
+    state_.locations[n] = "start_";
+    state_.phases[n] =
+        status_[n] == LogStatus::Idle ? Phase::Skipped : phase_of(status_[n]);
+    return show(n, "");
+  });
 }
 
 // The leaf that became RUNNING last has answered so.
@@ -248,6 +300,8 @@ bool LogPlayer::settle() {
 }
 
 bool LogPlayer::answer(std::size_t node, LogStatus status) {
+  if (!let_go_below(node)) return false;
+  std::erase(called_, node);
   outcome_[node] = status;
   state_.statuses[node] = word_of(status);
   if (status == LogStatus::Skipped) state_.statuses[node] = "idle";

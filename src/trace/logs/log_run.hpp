@@ -27,13 +27,16 @@ enum class Unseen : std::uint8_t {
   Nothing,
   Running,   // it may be ticked, and answer running
   Halted,    // it may have been halted, or been skipped as all below it were
+  Skipped,   // it is ticked, and may have answered skipped
   Repeated,  // it may be ticked, and answer as before; not in logs of btcheck
   Anything   // its records are not told apart from those of others
 };
 
-// Goes through a log. Node 0 of the run is the tree itself, which no record is
-// about: it is ticked where a tick begins and answers where it ends. The nodes
-// of the log follow in the order of their uids.
+// Goes through a log. A node whose child has a record is being ticked, also
+// where it sets RUNNING at its answer only, such as a Switch. Node 0 of the run
+// is the tree itself, which no record is about: it is ticked where a tick
+// begins and answers where it ends. The nodes of the log follow in the order of
+// their uids.
 //
 // A record is one or more states: a node is ticked, answers, gives control
 // back. Behind the last of them no node is in an event, as between the steps of
@@ -76,6 +79,9 @@ class LogPlayer {
   LogStatus answer_of_tick() const;
   bool read(const LogTransition& record);
   bool take_up(std::size_t node, bool is_leaf);
+  bool call_above(std::size_t node);
+  bool let_go_below(std::size_t node);
+  bool is_below(std::size_t node, std::size_t above) const;
   bool settle();
   bool answer(std::size_t node, LogStatus status);
   bool reach(std::size_t node, const char* location, Phase phase);
@@ -92,6 +98,7 @@ class LogPlayer {
   std::optional<std::size_t> maybe_halted_;
   std::optional<std::size_t> halted_before_;  // by the record before
   std::optional<std::size_t> taken_up_;       // a leaf, by the record before
+  std::vector<std::size_t> called_;  // ticked without a record of their own
   RecordedState state_;
   LogPlace place_;
   const std::function<bool()>* see_ = nullptr;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "text/budget.hpp"
 #include "text/unbroken.hpp"
 
 namespace btcheck {
@@ -267,9 +268,12 @@ std::string itf_text(const RecordedRun& run) {
   text.back() = ',';  // the states follow, one to a line
   text += "\n\"states\":[";
   for (std::size_t i = 0; i < run.states.size(); ++i) {
-    text += (i > 0 ? ",\n" : "\n") + state_value(run, i).text();
+    look_at_budget();
+    text += i > 0 ? ",\n" : "\n";
+    text += state_value(run, i).text();
   }
-  return text + "\n]}\n";
+  text += "\n]}\n";
+  return text;
 }
 
 namespace {

@@ -13,6 +13,7 @@
 
 #include "check/check.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 #include "trace/run/skipping.hpp"
 
 namespace btcheck {
@@ -338,6 +339,7 @@ RecordedRun recorded(const BehaviorTree& tree, const Network& network,
   // Where the loop closes, the run has the state it returns to once more.
   const std::size_t count = run.state_count() - (run.loop != kNoLoop);
   for (std::size_t i = 1; i < count; ++i) {
+    look_at_budget();
     record.states.push_back(recorder.take(run.state(i - 1), run.steps[i - 1]));
   }
   for (const WatchedPart& part : heading.watched) {

@@ -161,6 +161,7 @@ constexpr std::string_view kBody = R"text(
     void end_tick() {
       settle();
       if (!is_in_tick_) return;
+      let_go_below(0);
       is_in_tick_ = false;
       if (outcome_ != Status::Running) {
         const bool has_succeeded = outcome_ == Status::Success;
@@ -193,9 +194,14 @@ constexpr std::string_view kBody = R"text(
       }
       const std::size_t halted = halted_before_;
       halted_before_ = 0;
+      if (after != Status::Idle) call(tables::kNodes[node].parent);
       status_[node] = after;
       const bool is_leaf = tables::kNodes[node].is_leaf;
       if (after == Status::Running) {
+        if (!is_leaf && location_[node] == kElsewhere) {
+          last_[node] = kLastRunning;
+          return see();
+        }
         reach(node, kTick, true);
         last_[node] = kLastRunning;
         if (!is_leaf) {
@@ -206,7 +212,9 @@ constexpr std::string_view kBody = R"text(
         return;
       }
       if (after != Status::Idle) {
-        if (before != Status::Running) reach(node, kTick, true);
+        const bool is_called =
+            before == Status::Running || location_[node] == kElsewhere;
+        if (!is_called) reach(node, kTick, true);
         return answer(node, after);
       }
       last_[node] = kLastIdle;
@@ -280,6 +288,42 @@ constexpr std::string_view kBody = R"text(
       rest(leaf);
     }
 
+    // A node whose child changes is ticked. Some, such as Switch, tell it at
+    // their answer only.
+    void call(std::size_t node) {
+      if (node == 0 || location_[node] != kStart) return;
+      call(tables::kNodes[node].parent);
+      unsaid_[unsaid_count_++] = node;
+      reach(node, kTick, true);
+      location_[node] = kElsewhere;
+      see();
+    }
+
+    static bool is_below(std::size_t node, std::size_t above) {
+      while (node > above) node = tables::kNodes[node].parent;
+      return node == above;
+    }
+
+    // What was ticked and tells no answer was skipped, or has answered what it
+    // had: its parent has gone on.
+    void let_go_below(std::size_t above) {
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < unsaid_count_; ++i) {
+        const std::size_t node = unsaid_[i];
+        const bool is_said =
+            node == above || status_[node] == Status::Running;
+        if (is_said) continue;
+        if (!is_below(node, above)) {
+          unsaid_[kept++] = node;
+          continue;
+        }
+        location_[node] = kStart;
+        called_[node] = false;
+        see();
+      }
+      unsaid_count_ = kept;
+    }
+
     void pass_time() {
       has_passed_ = true;
       see();
@@ -292,6 +336,7 @@ constexpr std::string_view kBody = R"text(
     }
 
     void answer(std::size_t node, Status status) {
+      let_go_below(node);
       if (tables::kNodes[node].parent == 0) outcome_ = status;
       last_[node] = status == Status::Success   ? kLastSuccess
                     : status == Status::Failure ? kLastFailure
@@ -342,7 +387,12 @@ constexpr std::string_view kBody = R"text(
         return;
       }
       const Status status = status_[node];
-      if (status == Status::Idle || status == Status::Skipped) return;
+      if (status == Status::Idle || status == Status::Skipped) {
+        if (here != kElsewhere) return;
+        if (is_answer) return add(slot, answer_in(kSkipped));
+        add(slot, kSkipped);
+        return add(slot, kDone);
+      }
       const Location again = status == Status::Running   ? kRunning
                              : status == Status::Success ? kSuccess
                 : kFailure;
@@ -523,6 +573,8 @@ constexpr std::string_view kBody = R"text(
     std::array<Location, tables::kNodeCount> before_{};
     std::array<Last, tables::kNodeCount> last_{};
     std::array<bool, tables::kNodeCount> called_{};
+    std::array<std::size_t, tables::kNodeCount> unsaid_{};
+    std::size_t unsaid_count_ = 0;
     std::array<Status, tables::kNodeCount> status_{};
     std::array<int, tables::kSlotCount + 1> v_{};
     std::array<Others, tables::kSlotCount + 1> others_{};

@@ -261,9 +261,11 @@ void RecordedWatch::note_unseen(std::size_t node, Unseen unseen,
     may_be(location, RecordedNetwork::location_number(name));
   };
   if (unseen == Unseen::Halted) return also("halted");
-  const std::string answered =
-      unseen == Unseen::Running ? "running" : state.statuses[node];
-  also("tick_node");
+  const std::string answered = unseen == Unseen::Running ? "running"
+                               : unseen == Unseen::Skipped
+                                   ? "skipped"
+                                   : state.statuses[node];
+  if (unseen != Unseen::Skipped) also("tick_node");
   also(answered);
   also("done");
   const auto answer =
