@@ -157,13 +157,15 @@ std::string simulated_itf(const SimulatedTree& simulated, const Run& run,
 
 namespace {
 
-// What keeps a run: neither the time nor a signal that has ended the run ends
-// its file as well.
-class MemoryAlone final : public Budget {
+// A run that a limit or a signal has ended is kept all the same, where that is
+// done soon and in the memory that there is.
+class ToKeep final : public Budget {
  public:
   Spent look() override {
-    return limits_of_command().overdrawn() == Spent::Memory ? Spent::Memory
-                                                            : Spent::Nothing;
+    ProcessLimits& limits = limits_of_command();
+    const Spent spent = limits.overdrawn();
+    return spent == Spent::Memory || !limits.may_tell() ? spent
+                                                        : Spent::Nothing;
   }
 };
 
@@ -193,8 +195,8 @@ std::string keep_run(const std::string& file, const SimulatedTree& simulated,
                     "for fewer --ticks",
                     run.steps.size(), bytes >> 20, kMostInputBytes >> 20));
   };
-  MemoryAlone memory;
-  const BudgetScope scope(&memory);
+  ToKeep budget;
+  const BudgetScope scope(&budget);
   try {
     if (run.steps.size() > kSample) {
       const std::size_t about = kept_bytes(simulated, run, how);
@@ -203,11 +205,14 @@ std::string keep_run(const std::string& file, const SimulatedTree& simulated,
     const std::string text = simulated_itf(simulated, run, how);
     if (text.size() > kMostInputBytes) return too_long(text.size());
     return write_file(file, text);
-  } catch (const BudgetSpent&) {
+  } catch (const BudgetSpent& spent) {
+    const bool is_memory = spent.spent() == Spent::Memory;
     return refused(
-        fmt::format("--memory was reached while {} steps of {} nodes "
-                    "were put into words; raise it, or ask for fewer --ticks",
-                    run.steps.size(), simulated.tree.nodes.size()));
+        fmt::format("{} before {} steps of {} nodes were put into words; {}",
+                    is_memory ? "--memory was reached" : "it was time to end",
+                    run.steps.size(), simulated.tree.nodes.size(),
+                    is_memory ? "raise it, or ask for fewer --ticks"
+                              : "ask for fewer --ticks"));
   }
 }
 

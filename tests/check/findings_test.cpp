@@ -6,10 +6,14 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "check/check.hpp"
 #include "check/findings/judgement.hpp"
+#include "file_text.hpp"
 #include "model/tree/leaf_names.hpp"
 
 namespace btcheck::findings_test {
@@ -205,6 +209,64 @@ TEST_CASE("what a loop never sets back is told, but not what is done once") {
                  kThree) == "");
   CHECK(found_in(loop("<Sequence _skipIf=\"x\"><A/>" + set + "</Sequence><B/>"),
                  kThree) == "");
+}
+
+// Halves its time at once, and has none left once it has told something.
+struct CutOnceTold : SearchMonitor {
+  StopReason observe(const SearchProgress&) override {
+    return text.empty() ? StopReason::None : StopReason::Timeout;
+  }
+  bool has_spare() override { return false; }
+  void found(const std::string& lines) override { text += lines; }
+  std::string text;
+};
+
+// Beside so much else that it is seen before all is searched.
+std::string beside_others(std::string text) {
+  constexpr std::string_view kMain = "main_tree_to_execute=\"";
+  const std::size_t at = text.find(kMain);
+  if (at == std::string::npos) return text;
+  const std::size_t begin = at + kMain.size();
+  const std::size_t length = text.find('"', begin) - begin;
+  const std::string tree = text.substr(begin, length);
+  text.replace(begin, length, "BesideOthers");
+  std::string others;
+  for (int i = 0; i < 8; ++i) {
+    others += "<Action ID=\"Other" + std::to_string(i) + "\"/>";
+  }
+  text.insert(text.rfind("</root>"),
+              "<BehaviorTree ID=\"BesideOthers\"><ParallelAll><SubTree ID=\"" +
+                  tree + "\"/>" + others + "</ParallelAll></BehaviorTree>");
+  return text;
+}
+
+TEST_CASE("what was told while it searched stands in a report that is cut") {
+  std::size_t told = 0;
+  for (const auto& file : std::filesystem::directory_iterator(
+           std::filesystem::path(BTCHECK_FINDINGS))) {
+    const std::string name = file.path().filename().string();
+    if (!name.ends_with("-bug.xml")) continue;
+    CAPTURE(name);
+    CutOnceTold monitor;
+    CheckOptions options;
+    options.limits.monitor = &monitor;
+    options.wants_shortest = false;  // no first search without samples
+    options.tries_repairs = false;
+    const CheckResult result =
+        check({name, beside_others(file_text(file.path()))}, {}, options);
+    REQUIRE(result.files.size() == 1);
+    constexpr std::string_view kSeen = "seen so far: BT";
+    for (std::size_t at = monitor.text.find(kSeen); at != std::string::npos;
+         at = monitor.text.find(kSeen, at + 1)) {
+      const std::string code = monitor.text.substr(at + kSeen.size() - 2, 6);
+      CAPTURE(code);
+      CHECK(std::ranges::any_of(
+          result.files[0].findings,
+          [&](const TreeFinding& each) { return each.code == code; }));
+      ++told;
+    }
+  }
+  CHECK(told > 10);
 }
 
 TEST_CASE("a comment at the node allows a finding") {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -115,6 +116,41 @@ TEST_CASE("what is said of planted bugs and clean trees") {
     return;
   }
   CHECK(text == file_text(kFolder / "expected"));
+}
+
+// "`X` succeeded" in the heading of a finding, and "X -> success" in its run,
+// where that shows what X answers.
+TEST_CASE("words and runs of findings agree") {
+  static const std::regex kSaid("`([^`]+)` (?:has )?(succeed|fail)(?:s|ed)\\b");
+  std::istringstream lines(file_text(kFolder / "expected"));
+  std::vector<std::pair<std::string, std::string>> wanted;
+  std::size_t agreed = 0;
+  std::string run;
+  const auto compare = [&] {
+    for (const auto& each : wanted) {
+      const std::string of_it = " " + each.first + " -> ";
+      if (run.find(of_it) == std::string::npos) continue;
+      INFO(of_it, each.second, " in\n", run);
+      CHECK(run.find(of_it + each.second) != std::string::npos);
+      ++agreed;
+    }
+    wanted.clear();
+    run.clear();
+  };
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_heading =
+        line.starts_with("warning[") || line.starts_with("note[");
+    if (is_heading) compare();
+    if (line.starts_with("    tick ")) run += line + "\n";
+    if (!is_heading) continue;
+    for (std::sregex_iterator said(line.begin(), line.end(), kSaid), end;
+         said != end; ++said) {
+      wanted.emplace_back((*said)[1].str(),
+                          (*said)[2] == "fail" ? "failure" : "success");
+    }
+  }
+  compare();
+  CHECK(agreed > 8);
 }
 
 }  // namespace

@@ -362,7 +362,8 @@ constexpr CodeRow kBtcppCodes[] = {
      .summary = "a number of rounds that is left open",
      .description =
          "A Repeat or RetryUntilSuccessful reads from the blackboard how often "
-         "it goes round. It may then stop after any round.",
+         "it goes round. It may then stop after any round; where the tree has "
+         "written what is no such number, it throws.",
      .help = "Write the number to have just that one checked.",
      .severity = Severity::Note,
      .example = {.body =

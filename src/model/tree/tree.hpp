@@ -442,6 +442,8 @@ struct Node {
   // The script of a Script or Precondition; of a Switch, one for each case.
   std::vector<Script> own_scripts;
   bool answers_value = false;  // a Script: ScriptCondition
+  // A number that tick() reads by a port: it throws where none can be read.
+  std::optional<Script> reading;
 
   // Of py_trees.
   AnswerTable becomes;               // AnswerMap

@@ -256,19 +256,21 @@ ScriptValue to_either(const ScriptValue& value) {
   return either;
 }
 
-// A text as the type of an entry has it read (TypeInfo::converter).
+// A text as the type of an entry has it read (TypeInfo::converter): the number
+// that it begins with (convertFromString, src/basic_types.cpp).
 ScriptOutcome converted(const ScriptValue& text, EntryType type) {
   if (type == EntryType::Text) return surely(text.as(EntryType::Free));
   if (type == EntryType::Generic) return throws();
-  const auto number =
-      text.kind == Text ? number_in(text.text) : std::optional<double>();
   if (type == EntryType::Other || text.kind != Text) return anything(text);
-  if (type == EntryType::Real) {
-    return number ? surely(ScriptValue::real(*number)) : anything(text);
+  if (type == EntryType::Integer) {
+    const auto whole = begun_number<std::int64_t>(text.text);
+    if (!whole) return throws();
+    return surely(ScriptValue::integer(static_cast<double>(*whole)));
   }
-  const bool is_whole = number && is_integer(*number) &&
-                        text.text.find_first_of(".eE") == std::string::npos;
-  return is_whole ? surely(ScriptValue::integer(*number)) : throws();
+  const auto number = begun_number<double>(text.text);
+  if (!number) return throws();
+  return std::isfinite(*number) ? surely(ScriptValue::real(*number))
+                                : anything(text);
 }
 
 // What a text becomes in an entry that holds none.

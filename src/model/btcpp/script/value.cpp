@@ -31,7 +31,9 @@ bool may_be_enumerator(std::string_view text) {
   return is_name && !text.empty() && is_capital(text[0]);
 }
 
-bool is_integer(double number) { return number == std::nearbyint(number); }
+bool is_integer(double number) {
+  return std::isfinite(number) && number == std::nearbyint(number);
+}
 
 ScriptValue ScriptValue::range(ScriptKind kind, double number,
                                NumberType type) {

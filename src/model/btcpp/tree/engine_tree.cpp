@@ -261,7 +261,9 @@ class Conversion {
     }
     node.is_guessed =
         element.children.empty() && !element.is_known && !element.is_explicit;
+    reading_.reset();
     set_ports(node);
+    node.reading = std::move(reading_);
     tell_left_open(node);
     rules_.apply(instance, scripts_, node);
     scripts_.add_port_writes(instance, node.contract);
@@ -346,6 +348,7 @@ class Conversion {
                                   "is read while it runs",
                                   element().id, *port(name)),
                       "", "every number of rounds is checked"});
+      read_number(PortType::Int, name);
       return kOpenRounds;
     }
     return *value < 0 ? kEndlessRounds : *value;
@@ -371,8 +374,13 @@ class Conversion {
   Duration length(std::string_view name, double unit_ms) {
     const auto value = port(name);
     const auto parsed = value ? as_number<double>(*value) : std::nullopt;
-    return parsed ? ticks(name, std::max(0.0, *parsed * unit_ms))
-                  : open_ticks(name, "long", "takes");
+    if (parsed) return ticks(name, std::max(0.0, *parsed * unit_ms));
+    if (!is_of_py_trees()) read_number(PortType::Unsigned, name);
+    return open_ticks(name, "long", "takes");
+  }
+
+  void read_number(PortType type, std::string_view name) {
+    reading_ = scripts_.reading(at_->subtree, type, name, text(name));
   }
 
   Duration period() {
@@ -575,6 +583,7 @@ class Conversion {
   std::set<std::string> told_open_;
   BehaviorTree tree_;
   const BtcppInstance* at_ = nullptr;  // the node that is converted
+  std::optional<Script> reading_;      // Node::reading of it
 };
 
 }  // namespace

@@ -238,10 +238,14 @@ class ScriptExecution {
       return kept(entry, std::move(written));
     }
     if (is_free) return {ScriptValue::any(), true};
-    Result result =
-        of.operation <= ScriptOperation::Set
-            ? result_of(assign_in(program_.tree, values_[entry], by.value))
-            : result_of(apply_change(of.operation, values_[entry], by.value));
+    // It has the type that its ports say before anything has written it.
+    ScriptValue held = values_[entry];
+    if (before == ScriptKind::Unknown) {
+      held = held.as(programs_.entries[entry].declared);
+    }
+    Result result = of.operation <= ScriptOperation::Set
+                        ? result_of(assign_in(program_.tree, held, by.value))
+                        : result_of(apply_change(of.operation, held, by.value));
     const bool may_lack = before == ScriptKind::Unknown && !creates;
     result.may_throw |= by.may_throw || may_lack;
     return kept(entry, std::move(result));
@@ -496,6 +500,56 @@ Equality compared(PortComparison how, const ScriptValue& one,
   return may_be ? kPerhaps : kDifferent;
 }
 
+namespace {
+
+// An integer or a whole double, and not too large for its 32 bits.
+bool fits(PortType type, double number) {
+  const bool is_unsigned = type == PortType::Unsigned;
+  const double least = is_unsigned ? 0 : std::numeric_limits<int>::min();
+  const double most = is_unsigned ? std::numeric_limits<std::uint32_t>::max()
+                                  : std::numeric_limits<int>::max();
+  return is_integer(number) && number >= least && number <= most;
+}
+
+// Whole numbers that a tree counts up or down to are not taken to leave 32
+// bits.
+PortReading read_range(PortType type, const ScriptValue& range) {
+  const bool is_unsigned = type == PortType::Unsigned;
+  const bool is_up = range.kind == ScriptKind::AtLeast;
+  if (is_unsigned && !is_up && range.number < 0) return {false, true};
+  const bool may_be_negative = !is_up || range.number < 0;
+  const bool is_whole =
+      range.type == NumberType::Integer || range.type == NumberType::Whole;
+  return {true, !is_whole || (is_unsigned && may_be_negative)};
+}
+
+}  // namespace
+
+PortReading read_by_port(PortType type, const ScriptValue& value) {
+  constexpr PortReading kSuits{true, false};
+  constexpr PortReading kThrows{false, true};
+  switch (value.kind) {
+    case ScriptKind::Unset:
+    case ScriptKind::Empty:
+    case ScriptKind::NotANumber:
+      return kThrows;
+    case ScriptKind::Unknown:
+      return {true, true};
+    case ScriptKind::Number:
+      return fits(type, value.number) ? kSuits : kThrows;
+    case ScriptKind::Text:
+      return is_literal_of(type, value.text) ? kSuits : kThrows;
+    case ScriptKind::AtMost:
+    case ScriptKind::AtLeast:
+      return read_range(type, value);
+    case ScriptKind::AnyText:
+      return {true, true};
+    case ScriptKind::Any:
+      break;
+  }
+  return {true, value.is_lost()};
+}
+
 std::vector<EntryNumber> EntryProgram::entries() const {
   std::vector<EntryNumber> all;
   for (std::size_t i = 0; i < tree.terms.size(); ++i) {
@@ -561,6 +615,14 @@ bool EntryExecution::execute(const ScriptStep& step) {
                                                   programs_.enums.get()));
       is_possible = step.outcome == ScriptOutcomeKind::Holds ? whole.may_hold
                                                              : whole.may_fail;
+      break;
+    }
+    case EntryProgram::Kind::Reading: {
+      const PortReading reading = read_by_port(
+          program.port, value_in(programs_, program.left, values_));
+      is_possible = step.outcome == ScriptOutcomeKind::Throws
+                        ? reading.may_throw
+                        : reading.may_suit;
       break;
     }
   }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "model/btcpp/document.hpp"
+#include "model/btcpp/known_types.hpp"
 #include "model/btcpp/script/domain.hpp"
 #include "model/btcpp/script/script.hpp"
 #include "model/btcpp/script/value.hpp"
@@ -49,6 +50,16 @@ Equality compared(PortComparison how, const ScriptValue& one,
 bool is_beside_enumerator(PortComparison how, const ScriptValue& one,
                           const ScriptValue& other, const ScriptEnums* enums);
 
+// Whether a port of a number, read from an entry of this value, may have one,
+// and whether getInput may fail (TreeNode::getInputStamped,
+// include/behaviortree_cpp/tree_node.h of 4.10; Any::cast, SafeAny's
+// convertNumber). Of what a leaf has written it is taken to suit.
+struct PortReading {
+  bool may_suit = false;
+  bool may_throw = false;
+};
+PortReading read_by_port(PortType type, const ScriptValue& value);
+
 // Index into EntryPrograms::entries.
 using EntryNumber = std::uint32_t;
 
@@ -64,7 +75,13 @@ struct WrittenEntry {
 };
 
 struct EntryProgram {
-  enum class Kind : std::uint8_t { Script, Setting, Unsetting, Equality };
+  enum class Kind : std::uint8_t {
+    Script,
+    Setting,
+    Unsetting,
+    Equality,
+    Reading
+  };
   Kind kind = Kind::Script;
   std::string text;  // for people
   // Script: operands of Name terms are in `names`, by the number of the term.
@@ -74,10 +91,11 @@ struct EntryProgram {
   bool is_condition = false;      // its last value has to be a truth value
   bool is_of_contract = false;
   // Setting: `left` is written, `right` copied. Unsetting: `left` is removed.
-  // Equality: both are compared.
+  // Equality: both are compared. Reading: `left`, by a port of `port`.
   ProgramOperand left;
   ProgramOperand right;
   PortComparison how = PortComparison::Switch;
+  PortType port = PortType::Any;
   bool is_own = true;  // Setting: as of SettingPlace
 
   // Script: what a leaf writes by its ports before, for certain or perhaps.

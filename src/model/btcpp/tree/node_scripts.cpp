@@ -257,6 +257,46 @@ Script NodeScripts::equality(std::uint32_t subtree, PortComparison how,
   return script;
 }
 
+std::optional<Script> NodeScripts::reading(std::uint32_t subtree, PortType type,
+                                           std::string_view name,
+                                           std::string_view value) {
+  EntryProgram program;
+  program.kind = EntryProgram::Kind::Reading;
+  program.port = type;
+  program.left = operand_of(subtree, value);
+  if (!program.left.entry) return std::nullopt;
+  const auto variable = programs_->entries[*program.left.entry].variable;
+  if (!variable) return std::nullopt;
+  ScriptGuard suits;
+  ScriptGuard throws;
+  ScriptGuard lacks;
+  bool is_rough = false;
+  const auto& values = world_.domain(*variable).values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const ScriptGuard here = ScriptGuard::is(*variable, i, values.size());
+    const PortReading reads = read_by_port(type, values[i]);
+    const bool is_unknown = values[i].kind == ScriptKind::Unknown;
+    if (reads.may_suit) suits = either(suits, here);
+    if (is_unknown) lacks = either(lacks, here);
+    if (reads.may_throw && !is_unknown) throws = either(throws, here);
+    is_rough |= reads.may_suit && reads.may_throw && !is_unknown;
+  }
+  Script script;
+  script.text = program.text = fmt::format("{}=\"{}\"", name, value);
+  script.may_hold = suits.expression();
+  script.may_fail = Expression::constant(0);
+  const auto where = [](const ScriptGuard& guard) {
+    const Expression here = guard.expression();
+    return is_never(here) ? std::nullopt : std::optional(here);
+  };
+  script.may_lack = where(lacks);
+  script.may_throw = where(throws);
+  if (!script.may_lack && !script.may_throw) return std::nullopt;
+  if (is_rough) note_rough(program);
+  script.program = add(std::move(program));
+  return script;
+}
+
 Script NodeScripts::set_blackboard(const BtcppInstance& node) {
   ScriptMeaning meaning = compile_set_blackboard(expansion_, world_, node);
   std::int32_t number = kNoProgram;

@@ -45,6 +45,10 @@ class NodeScripts {
   // that cannot be read is equal to none.
   Script equality(std::uint32_t subtree, PortComparison how,
                   std::string_view one, std::string_view other);
+  // What a node reads by a port of a number, `{name}`; nothing where it cannot
+  // throw as far as the tree shows.
+  std::optional<Script> reading(std::uint32_t subtree, PortType type,
+                                std::string_view name, std::string_view value);
   Script set_blackboard(const BtcppInstance& node);
   Script unset_blackboard(const BtcppInstance& node);
 

@@ -64,7 +64,24 @@ EngineBuilder::EngineBuilder(NodeBuilder& draw, Begins begins)
       {}, "is called");
   body_ = at("tick_node");
   draw_preconditions();
+  draw_reading();
   draw_answers();
+}
+
+// Repeat, RetryUntilSuccessful, Delay and Timeout read their number in each
+// tick; a Sleep where it begins (StatefulActionNode::onStart).
+void EngineBuilder::draw_reading() {
+  const auto& reading = node().reading;
+  if (!reading) return;
+  const LocationId read = at("reads");
+  const Context& context = draw_.context();
+  const bool is_at_start = node().type == NodeType::Wait;
+  const Expression when = is_at_start ? was_idle() : Expression{};
+  draw_.edge(body_, read, both(when, context.over_network(reading->may_hold)));
+  draw_.executes(reading->program, ScriptOutcomeKind::Ends);
+  throws_where_undecided(body_, *reading, when);
+  if (is_at_start) draw_.edge(body_, read, negated(was_idle()));
+  body_ = read;
 }
 
 namespace {

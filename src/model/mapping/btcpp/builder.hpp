@@ -162,6 +162,7 @@ class EngineBuilder {
 
  private:
   void draw_preconditions();
+  void draw_reading();
   void draw_preconditions_of_each_tick();
   void draw_answers();
   void draw_skipped(const std::vector<ScriptTime>& otherwise);
