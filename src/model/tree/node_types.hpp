@@ -117,6 +117,20 @@ enum class Skips : std::uint8_t {
   SomeOrOtherwise,  // Some, or as its answer instead of ticking its child
 };
 
+// Where tick() calls setStatus(RUNNING) before the node answers, so that a log
+// of BehaviorTree.CPP has it (4.10 and 3.8.8, src/controls, src/decorators;
+// Nav2's plugins).
+enum class SetsRunning : std::uint8_t {
+  Never,              // at its answer only
+  First,              // first of all, in every tick
+  FirstMayHalt,       // likewise, and it may call its own halt() before it
+                      // answers
+  FromIdle,           // first of all, in a tick that finds it idle
+  WithChild,          // before it ticks its child
+  WithChildFromIdle,  // likewise, in a tick that finds it idle
+  AsProgrammed        // by the user's program: anywhere, or never
+};
+
 // One row for each node type. kAnyNumber when there is no upper end.
 inline constexpr int kAnyNumber = 1 << 20;
 struct NodeTypeInfo {
@@ -129,6 +143,7 @@ struct NodeTypeInfo {
   Beside beside;
   Ended ended;
   Skips skips;
+  SetsRunning sets_running;
   std::string_view sign;  // in pictures, of nodes with several children
 };
 // Indexed by NodeType.

@@ -253,7 +253,7 @@ struct Change {
 //
 // In logs of BehaviorTree.CPP that is what TreeNode::setStatus and resetStatus
 // tell (src/tree_node.cpp): an answer is a change of the status that the
-// network keeps, and engine_records.hpp says where a tick sets RUNNING before
+// network keeps, and SetsRunning says where a tick sets RUNNING before
 // it answers. In logs that btcheck has written, and in those of other trees,
 // which have no such status, a node with children is RUNNING once it is ticked.
 class Observer {
@@ -333,7 +333,7 @@ class Observer {
     told.role = automaton.target(edge).role;
     if (!keeps_status_) return told;
     const Node& node = tree_.node(told.node);
-    const SetsRunning when = records_of(node).sets_running;
+    const SetsRunning when = sets_running_of(node);
     if (node.children.empty()) {
       // Where its tick() begins, and may answer anything.
       const auto body = automaton.find_location("tick");
@@ -356,8 +356,8 @@ class Observer {
     return told;
   }
 
-  EngineRecords records_of(const Node& node) const {
-    return engine_records(node.type, tree_.profile);
+  SetsRunning sets_running_of(const Node& node) const {
+    return sets_running_in(node.type, tree_.profile);
   }
 
   // Nothing where the node keeps the status it has.
@@ -406,7 +406,7 @@ class Observer {
     // That an answer is reset is not looked at.
     if (now == LogStatus::Idle && before != LogStatus::Running) return;
     if (is_completed(now) && before == LogStatus::Running &&
-        records_of(tree_.node(node)).ends_idle) {
+        sets_running_of(tree_.node(node)) == SetsRunning::FirstMayHalt) {
       tell(node, LogStatus::Idle, changes, true);
     }
     tell(node, now, changes);
@@ -414,7 +414,7 @@ class Observer {
 
   // A leaf of the program's own, not one that the engine brings along.
   bool may_begin(const Node& leaf) const {
-    return records_of(leaf).sets_running == SetsRunning::AsProgrammed &&
+    return sets_running_of(leaf) == SetsRunning::AsProgrammed &&
            btcpp::builtin_type(btcpp::dialect_of(tree_.profile), leaf.id) ==
                nullptr;
   }
@@ -422,7 +422,7 @@ class Observer {
   void begin(NodeId node, std::span<Word> statuses,
              std::vector<Change>& changes) const {
     const LogStatus before = status(statuses, node);
-    const SetsRunning when = records_of(tree_.node(node)).sets_running;
+    const SetsRunning when = sets_running_of(tree_.node(node));
     const bool is_optional = when == SetsRunning::AsProgrammed;
     if (before == LogStatus::Running) return;
     if (is_from_idle(when) && before != LogStatus::Idle) return;

@@ -1,34 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// What the nodes of BehaviorTree.CPP leave in a log beside their answers: one
-// row for each type (BehaviorTree.CPP 4.10 and 3.8.8, src/controls,
-// src/decorators; Nav2's plugins).
+// What the nodes of BehaviorTree.CPP leave in a log beside their answers: where
+// their types set RUNNING, in the steps of their automata.
 #pragma once
 
-#include <cstdint>
 #include <string_view>
 
+#include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck {
 
-// Where tick() calls setStatus(RUNNING), before the node answers.
-enum class SetsRunning : std::uint8_t {
-  Never,
-  First,              // of all, in every tick
-  FromIdle,           // first of all, in a tick that finds it idle
-  WithChild,          // before it ticks its child
-  WithChildFromIdle,  // likewise, in a tick that finds it idle
-  AsProgrammed        // by the user's program: anywhere, or never
-};
-
-struct EngineRecords {
-  SetsRunning sets_running = SetsRunning::Never;
-  bool ends_idle = false;  // may call its own halt() before it answers
-};
-
 // Of a type in this release.
-EngineRecords engine_records(NodeType type, Profile profile);
+SetsRunning sets_running_in(NodeType type, Profile profile);
 
 // Only where it is idle.
 bool is_from_idle(SetsRunning when);
