@@ -159,10 +159,10 @@ class Answered {
 
   void add_skipped(NodeId id) {
     const Node& node = facts_.node(id);
-    const bool has_own = node.script(ScriptTime::SkipIf).has_value() ||
-                         node.script(ScriptTime::While).has_value();
+    const bool has_own = node.script(ScriptTime::SkipIf) != nullptr ||
+                         node.script(ScriptTime::While) != nullptr;
     if (!has_own) return;
-    const bool is_skip = node.script(ScriptTime::SkipIf).has_value();
+    const bool is_skip = node.script(ScriptTime::SkipIf) != nullptr;
     const auto& script =
         *node.script(is_skip ? ScriptTime::SkipIf : ScriptTime::While);
     for (const NodeId child : node.children) explained_.insert(child);

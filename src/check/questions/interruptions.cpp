@@ -87,7 +87,7 @@ class Search {
     const Node& node = tree_.node(id);
     Quiet answers = is_leaf(node.type) ? of_leaf(id) : of_inner(node);
     const auto has = [&](ScriptTime time) {
-      return node.script(time).has_value();
+      return node.script(time) != nullptr;
     };
     answers.success |= has(ScriptTime::SuccessIf);
     answers.failure |= has(ScriptTime::FailureIf);

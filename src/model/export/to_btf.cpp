@@ -86,11 +86,11 @@ class BtfWriter {
   }
 
   void tell_of_scripts(const Node& node) {
-    for (std::size_t time = 0; time < kScriptTimes; ++time) {
-      if (!node.scripts[time]) continue;
+    for (const auto& [time, script] : node.scripts) {
       told_.error(node,
                   fmt::format(".btf has no {}, as `{}` has",
-                              kNotCarried.at(time), node.name),
+                              kNotCarried.at(static_cast<std::size_t>(time)),
+                              node.name),
                   "write a condition beside the node");
     }
   }

@@ -140,8 +140,8 @@ Answers of_inner(const Node& node, const AllAnswers& answers) {
 
 // Its conditions may answer for it.
 void add_conditions(const Node& node, Answers& answers) {
-  answers.failure |= node.script(ScriptTime::FailureIf).has_value();
-  answers.success |= node.script(ScriptTime::SuccessIf).has_value();
+  answers.failure |= node.script(ScriptTime::FailureIf) != nullptr;
+  answers.success |= node.script(ScriptTime::SuccessIf) != nullptr;
 }
 
 // Whether the node may answer skipped, given its children. Of one that counts

@@ -211,7 +211,7 @@ bool writes(const Node& node, StateVariableId variable) {
              node.contract.measures.end() ||
          std::ranges::any_of(
              node.scripts,
-             [&](const auto& each) { return each && script_writes(*each); }) ||
+             [&](const auto& each) { return script_writes(each.second); }) ||
          std::ranges::any_of(node.own_scripts, script_writes);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <boost/container/flat_map.hpp>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -438,12 +439,13 @@ struct Node {
   // What a Precondition, Loop, WhenUpdated or BlackboardCheck answers instead
   // of ticking its child.
   NodeStatus otherwise = NodeStatus::Failure;
-  std::array<std::optional<Script>, kScriptTimes> scripts;
+  boost::container::flat_map<ScriptTime, Script> scripts;
   // The script of a Script or Precondition; of a Switch, one for each case.
   std::vector<Script> own_scripts;
   bool answers_value = false;  // a Script: ScriptCondition
-  // A number that tick() reads by a port: it throws where none can be read.
-  std::optional<Script> reading;
+  // A number that tick() reads by a port, if any: it throws where none can be
+  // read.
+  std::vector<Script> readings;
 
   // Of py_trees.
   AnswerTable becomes;               // AnswerMap
@@ -456,8 +458,10 @@ struct Node {
   std::vector<std::size_t> selected;
   bool is_synchronised = false;
 
-  const std::optional<Script>& script(ScriptTime time) const {
-    return scripts[static_cast<std::size_t>(time)];
+  // Null where it has none.
+  const Script* script(ScriptTime time) const {
+    const auto found = scripts.find(time);
+    return found == scripts.end() ? nullptr : &found->second;
   }
   bool is_root() const;
 };

@@ -254,16 +254,16 @@ class Conversion {
           find_attribute(element.conditions, kBtcppConditionNames[time]);
       if (written != nullptr) {
         // The first four are conditions.
-        node.scripts[time] =
+        node.scripts.emplace(
+            static_cast<ScriptTime>(time),
             script(time < 4 ? ScriptRole::Condition : ScriptRole::Action,
-                   written->value);
+                   written->value));
       }
     }
     node.is_guessed =
         element.children.empty() && !element.is_known && !element.is_explicit;
-    reading_.reset();
     set_ports(node);
-    node.reading = std::move(reading_);
+    node.readings = std::exchange(readings_, {});
     tell_left_open(node);
     rules_.apply(instance, scripts_, node);
     scripts_.add_port_writes(instance, node.contract);
@@ -380,7 +380,8 @@ class Conversion {
   }
 
   void read_number(PortType type, std::string_view name) {
-    reading_ = scripts_.reading(at_->subtree, type, name, text(name));
+    auto reading = scripts_.reading(at_->subtree, type, name, text(name));
+    if (reading) readings_.push_back(std::move(*reading));
   }
 
   Duration period() {
@@ -583,7 +584,7 @@ class Conversion {
   std::set<std::string> told_open_;
   BehaviorTree tree_;
   const BtcppInstance* at_ = nullptr;  // the node that is converted
-  std::optional<Script> reading_;      // Node::reading of it
+  std::vector<Script> readings_;       // Node::readings of it
 };
 
 }  // namespace

@@ -71,17 +71,17 @@ EngineBuilder::EngineBuilder(NodeBuilder& draw, Begins begins)
 // Repeat, RetryUntilSuccessful, Delay and Timeout read their number in each
 // tick; a Sleep where it begins (StatefulActionNode::onStart).
 void EngineBuilder::draw_reading() {
-  const auto& reading = node().reading;
-  if (!reading) return;
-  const LocationId read = at("reads");
   const Context& context = draw_.context();
   const bool is_at_start = node().type == NodeType::Wait;
   const Expression when = is_at_start ? was_idle() : Expression{};
-  draw_.edge(body_, read, both(when, context.over_network(reading->may_hold)));
-  draw_.executes(reading->program, ScriptOutcomeKind::Ends);
-  throws_where_undecided(body_, *reading, when);
-  if (is_at_start) draw_.edge(body_, read, negated(was_idle()));
-  body_ = read;
+  for (const Script& reading : node().readings) {
+    const LocationId read = at("reads");
+    draw_.edge(body_, read, both(when, context.over_network(reading.may_hold)));
+    draw_.executes(reading.program, ScriptOutcomeKind::Ends);
+    throws_where_undecided(body_, reading, when);
+    if (is_at_start) draw_.edge(body_, read, negated(was_idle()));
+    body_ = read;
+  }
 }
 
 namespace {
@@ -102,16 +102,12 @@ constexpr std::array<Condition, 3> kConditions = {
 // one that has ended and was not reset at none.
 void EngineBuilder::draw_preconditions() {
   const auto& scripts = node().scripts;
-  constexpr std::size_t kBefore = 4;
-  if (std::none_of(scripts.begin(), scripts.begin() + kBefore,
-                   [](const auto& script) { return script.has_value(); })) {
-    return;
-  }
+  if (scripts.empty() || scripts.begin()->first > ScriptTime::While) return;
   body_ = at("tick");
   if (is_in(releases::kSkippedStays)) return draw_preconditions_of_each_tick();
   LocationId here = at("conditions");
   draw_.edge(at("tick_node"), here, was_idle());
-  const bool has_while = node().script(ScriptTime::While).has_value();
+  const bool has_while = node().script(ScriptTime::While) != nullptr;
   draw_.edge(at("tick_node"), body_,
              both(negated(was_idle()),
                   has_while ? negated(was_running()) : Expression{}));
@@ -205,7 +201,7 @@ void EngineBuilder::draw_halted() {
   Afterwards halted = run_afterwards("halted", {ScriptTime::OnHalted});
   const Afterwards itself = halted;
   halted.updates.push_back(set(status(), NodeStatus::NoRetStatus));
-  const bool may_halt_itself = node().script(ScriptTime::While).has_value();
+  const bool may_halt_itself = node().script(ScriptTime::While) != nullptr;
   leave(halted, at("done"),
         may_halt_itself ? equals(status(), NodeStatus::HaltMe) : Expression{},
         "has been halted");
