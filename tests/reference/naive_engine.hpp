@@ -60,7 +60,7 @@ class NaiveEngine {
   Memory& memory(NodeId id) { return memory_[index(id)]; }
   bool asks_true(NodeId id) { return ask_(id) == "true"; }
   bool has(NodeId id, ScriptTime time) const {
-    return node(id).script(time).has_value();
+    return node(id).script(time) != nullptr;
   }
   bool is_3() const { return is_release_3(tree_.profile); }
   bool is_due(NodeId id) const;
