@@ -280,10 +280,11 @@ bool LogPlayer::is_below(std::size_t node, std::size_t above) const {
 // What was ticked without a record, and has none for its answer either, was
 // skipped, or has answered what it had: its parent has gone on.
 bool LogPlayer::let_go_below(std::size_t node) {
-  const auto ended = std::ranges::partition(
-      called_, [&](std::size_t n) { return n == node || !is_below(n, node); });
-  const std::vector<std::size_t> below(ended.begin(), ended.end());
-  called_.erase(ended.begin(), ended.end());
+  const auto ended = std::partition(
+      called_.begin(), called_.end(),
+      [&](std::size_t n) { return n == node || !is_below(n, node); });
+  const std::vector<std::size_t> below(ended, called_.end());
+  called_.erase(ended, called_.end());
   return std::ranges::all_of(below, [&](std::size_t n) {
     state_.locations[n] = "start_";
     state_.phases[n] =
