@@ -9,7 +9,8 @@ include(CMakePackageConfigHelpers)
 # The layers in one archive. What they need from outside is linked by who uses
 # it, so the options of this build stay here.
 add_library(btcheck_library STATIC)
-foreach(layer text automata model explore ltl check trace export)
+foreach(layer text automata model explore ltl check trace export project report
+    api)
   target_sources(btcheck_library PRIVATE $<TARGET_OBJECTS:btcheck_${layer}>)
 endforeach()
 set_target_properties(btcheck_library PROPERTIES
@@ -20,6 +21,14 @@ target_compile_features(btcheck_library INTERFACE cxx_std_20)
 target_link_libraries(btcheck_library INTERFACE
   fmt::fmt TBB::tbb tinyxml2::tinyxml2 zstd::libzstd_shared SQLite::SQLite3
   lz4 Boost::headers)
+
+# The same behind the one header for programs that check trees.
+add_library(btcheck_door INTERFACE)
+set_target_properties(btcheck_door PROPERTIES EXPORT_NAME check)
+target_include_directories(btcheck_door INTERFACE
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_compile_features(btcheck_door INTERFACE cxx_std_20)
+target_link_libraries(btcheck_door INTERFACE btcheck_library Threads::Threads)
 
 # The engine that runs trees, with the one header that its users need.
 add_library(btcheck_engine STATIC $<TARGET_OBJECTS:btcheck_run>)
@@ -112,11 +121,11 @@ endforeach()
 
 set(library_dir ${CMAKE_INSTALL_LIBDIR}/cmake/btcheck)
 set(program_dir ${data}/cmake/btcheck)
-install(TARGETS btcheck_library btcheck_engine EXPORT btcheck_library
+install(TARGETS btcheck_library btcheck_door btcheck_engine EXPORT btcheck_library
   COMPONENT library ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} OPTIONAL)
 tell_missing(library $<TARGET_FILE:btcheck_engine>
   "no library: the targets btcheck_library and btcheck_engine were not built")
-install(FILES src/btcheck/run.hpp COMPONENT library
+install(FILES src/btcheck/check.hpp src/btcheck/run.hpp COMPONENT library
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/btcheck)
 foreach(folder text model explore ltl check trace)
   install(DIRECTORY src/${folder} COMPONENT library

@@ -26,6 +26,7 @@
 #include "cli/outputs/keep_baseline.hpp"
 #include "cli/outputs/write_reports.hpp"
 #include "model/tree_file.hpp"
+#include "project/sources.hpp"
 #include "report/formats/formats.hpp"
 #include "report/formats/reported.hpp"
 #include "report/text/differences.hpp"
@@ -166,7 +167,8 @@ ExitCode check_one(const Options& asked) {
   if (inputs && options.against) return run_against(options, *inputs);
   if (!inputs) {
     std::vector<std::string> names = options.properties;
-    if (!options.rules.empty()) names.push_back(typed_rules(options).name);
+    if (!options.rules.empty())
+      names.push_back(typed_rules(options.rules).name);
     print_start(options.reports, options.input, names);
     return told(options, result, options.input, ExitCode::BadInput, 0);
   }
@@ -269,16 +271,6 @@ ExitCode run_demo(const Options& options) {
 
 namespace {
 
-ExitCode code_for(const CheckResult& result) {
-  if (result.is_broken) return ExitCode::BadInput;
-  return std::ranges::any_of(result.diagnostics,
-                             [](const Diagnostic& found) {
-                               return found.severity != Severity::Note;
-                             })
-             ? ExitCode::Missed
-             : ExitCode::Met;
-}
-
 // Errors of reading are told on stderr; what is found in a tree that can be
 // read, on stdout.
 bool is_told_apart(const ReportedTree& tree, const Diagnostic& diagnostic) {
@@ -334,8 +326,8 @@ ReportedTree linted(const Options& all, const BatchEntry& entry) {
   const BudgetScope telling(nullptr);
   result.diagnostics.insert(result.diagnostics.begin(), found.begin(),
                             found.end());
-  ReportedTree tree =
-      reported(result, file, is_spent ? ExitCode::Undecided : code_for(result));
+  ReportedTree tree = reported(
+      result, file, is_spent ? ExitCode::Undecided : lint_code_of(result));
   std::erase_if(result.diagnostics, [&](const Diagnostic& one) {
     return !is_told_apart(tree, one);
   });

@@ -20,7 +20,7 @@
 #include "batch/leaves.hpp"
 #include "check/export/export_model.hpp"
 #include "check/space/space.hpp"
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 #include "cli/console/console.hpp"
 #include "cli/from.hpp"
 #include "cli/inputs/inputs.hpp"

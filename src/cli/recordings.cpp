@@ -15,6 +15,7 @@
 #include "cli/inputs/watch.hpp"
 #include "cli/outputs/write_reports.hpp"
 #include "ltl/rules/property.hpp"
+#include "project/sources.hpp"
 #include "report/text/report.hpp"
 #include "trace/conform/conform.hpp"
 #include "trace/logs/behavior_log.hpp"
@@ -141,7 +142,7 @@ ExitCode watch_recorded(const Options& options, const InputFile& file) {
     if (!rules.value) return ExitCode::BadInput;
     asked.push_back(std::move(*rules.value));
   }
-  if (!options.rules.empty()) asked.push_back(typed_rules(options));
+  if (!options.rules.empty()) asked.push_back(typed_rules(options.rules));
   std::vector<WatchReport> reports;
   for (const InputFile& rules : asked) {
     Result<WatchReport> report = watched(options, file, rules);

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 #include "cli/options/tables.hpp"
 #include "shell.hpp"
 #include "temporary_folder.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "cli/checked_report.hpp"
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck::findings_test {

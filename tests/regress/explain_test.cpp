@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 #include "shell.hpp"
 #include "temporary_folder.hpp"
 

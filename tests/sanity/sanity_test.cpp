@@ -185,7 +185,7 @@ TEST_CASE("each library is included only where it belongs") {
 
 // Where the codes themselves are told.
 bool is_code_table(const SourceFile& source) {
-  return source.path.rfind("src/cli/codes/", 0) == 0;
+  return source.path.rfind("src/report/codes/", 0) == 0;
 }
 
 TEST_CASE("every code in the sources is explained") {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "batch/entries/manifest.hpp"
+#include "cli/inputs/file_sources.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/settings/choices.hpp"
@@ -172,7 +173,7 @@ class FolderSearch {
                (is_xml_name(name) && unbroken(name) != name)) {
       trees_.insert(name);  // a name that is refused is told
     } else {
-      project_->add(roots_, name);
+      add_file(*project_, roots_, name);
     }
   }
 
@@ -321,9 +322,9 @@ class NamedTrees {
     names_.push_back(file.string());
     std::vector<std::string> roots = options_.roots;
     if (roots.empty()) roots = {(file.parent_path() / ".").string()};
-    named_.add(roots, names_.back());
-    project_->add(roots, names_.back());
-    project_->add_beside(roots, names_.back());
+    add_file(named_, roots, names_.back());
+    add_file(*project_, roots, names_.back());
+    add_beside(*project_, roots, names_.back());
     if (is_project_name(names_.back())) add_parts(names_.back());
   }
 
@@ -346,8 +347,8 @@ class NamedTrees {
     if (file == nullptr) return;
     const std::vector<std::string> paths = file->outline.includes;
     for (const std::string& path : paths) {
-      named_.add(options_.roots, included_name(name, path));
-      project_->add(options_.roots, included_name(name, path));
+      add_file(named_, options_.roots, included_name(name, path));
+      add_file(*project_, options_.roots, included_name(name, path));
     }
   }
 

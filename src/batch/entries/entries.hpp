@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "check/check.hpp"
-#include "cli/inputs/project.hpp"
+#include "project/xml_project.hpp"
 #include "cli/options/interface.hpp"
 #include "cli/settings/choices.hpp"
 #include "cli/settings/settings.hpp"

@@ -12,9 +12,8 @@
 #include <utility>
 
 #include "cli/console/console.hpp"
+#include "cli/inputs/file_sources.hpp"
 #include "cli/inputs/files.hpp"
-#include "cli/inputs/packages.hpp"
-#include "cli/inputs/project.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/options/roots.hpp"
 #include "cli/settings/baseline.hpp"
@@ -46,116 +45,6 @@ std::optional<std::string> tree_named_by(const InputFile& properties,
       fmt::format("`{0}` names no tree; write btcheck TREE --prop {0}",
                   properties.name)));
   return std::nullopt;
-}
-
-// What a tree may include: a ROS workspace has several repositories, which name
-// each other.
-std::vector<std::string> roots_of_includes(const std::string& tree,
-                                           const Options& options) {
-  std::vector<std::string> roots = options.roots;
-  if (roots.empty() || options.given.contains("--root") ||
-      options.command == Command::Batch || is_given(tree)) {
-    return roots;
-  }
-  const std::string workspace = workspace_of(tree);
-  if (!workspace.empty()) roots.push_back(workspace);
-  return roots;
-}
-
-// A file that a ROS package has installed is no stranger's: where it lies, and
-// where a link of `colcon build --symlink-install` leads, may be read from now
-// on, unless the user says what may.
-void trust_installed(const std::string& folder, const std::string& file,
-                     const Options& options, std::vector<std::string>& roots) {
-  const bool leads_out =
-      fs::path(file).lexically_relative(folder).string().starts_with("..");
-  if (leads_out || roots.empty() || options.given.contains("--root")) return;
-  std::error_code fault;
-  roots.push_back(folder);
-  roots.push_back(fs::weakly_canonical(file, fault).parent_path().string());
-}
-
-// The files that an XML tree asks for, wherever they are named, and those
-// around it: so reading it again opens none. A file that is looked at by itself
-// has the models of files beside it that hold nothing else.
-void add_asked_files(const InputFile& tree, const Options& options,
-                     TreeReading& reading, std::vector<Diagnostic>& found) {
-  std::vector<std::string> roots = roots_of_includes(tree.name, options);
-  XmlProject beside;
-  XmlProject around;
-  std::optional<FilesAround> files_around;  // made when a tree is missing
-  const bool is_alone = options.project == nullptr;
-  const bool has_folder = is_alone && !is_given(tree.name);
-  if (has_folder) beside.add_beside(roots, tree.name);
-  const XmlProject& project = is_alone ? beside : *options.project;
-  const auto add_neighbour = [&](const ProjectFile& file) {
-    const bool is_there = std::ranges::any_of(
-        reading.neighbours,
-        [&](const BtcppFile& other) { return other.name == file.file.name; });
-    if (!is_there) reading.neighbours.push_back(file.file);
-  };
-  read_btcpp(tree.name, tree.text, [&](const IncludeRequest& request) {
-    if (!request.tree.empty()) {
-      const std::string from(request.from);
-      NearestFile near = project.with_tree(request.tree, from);
-      if (near.file == nullptr) near = around.with_tree(request.tree, from);
-      if (has_folder && near.file == nullptr && !files_around) {
-        files_around.emplace(tree.name);
-      }
-      while (files_around && near.file == nullptr && files_around->has_more()) {
-        for (const std::string& name : files_around->next()) {
-          around.add(roots, name);
-        }
-        near = around.with_tree(request.tree, from);
-      }
-      if (near.file == nullptr || near.file->file.name == tree.name) {
-        return IncludedFile();
-      }
-      add_neighbour(*near.file);
-      if (near.other != nullptr) {
-        reading.as_near.emplace(request.tree, near.other->file.name);
-      }
-      return IncludedFile{near.file->file.name, near.file->file.text, ""};
-    }
-    IncludedFile file{included_name(request.from, request.path), {}, {}};
-    if (!request.ros_package.empty()) {
-      const std::string installed = installed_package(request.ros_package);
-      const std::string folder =
-          installed.empty()
-              ? package_folder(request.ros_package, std::string(request.from))
-              : installed;
-      if (folder.empty()) return file;
-      reading.packages[std::string(request.ros_package)] = folder;
-      file.name = packaged_name(folder, request.path);
-      if (!installed.empty()) {
-        trust_installed(folder, file.name, options, roots);
-      }
-    }
-    auto read = read_file_in(roots, file.name);
-    if (!read.value) {
-      if (read.diagnostics[0].code == "BT0009") append(found, read.diagnostics);
-      return file;
-    }
-    file.text = read.value->text;
-    reading.included.push_back({file.name, std::move(read.value->text)});
-    return file;
-  });
-  if (!options.leaves.empty()) {
-    if (const auto own = outline_of(tree.text)) {
-      reading.other_leaves = own->leaves;
-    }
-    for (const ProjectFile& file : project.files()) {
-      reading.other_leaves.insert(file.outline.leaves.begin(),
-                                  file.outline.leaves.end());
-    }
-  }
-  for (const ProjectFile& file : project.files()) {
-    const bool has_only_models = file.outline.trees.empty();
-    if (file.outline.has_node_models && (has_only_models || !is_alone) &&
-        file.file.name != tree.name) {
-      add_neighbour(file);
-    }
-  }
 }
 
 // Adds the files of these names; false when one of them cannot be read. What
@@ -205,7 +94,8 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
                    "says how long a tick takes"));
     return std::nullopt;
   }
-  add_asked_files(tree, options, reading, found);
+  FileSources sources(tree.name, options);
+  add_asked_files(tree, sources, reading, found);
   return reading;
 }
 
@@ -303,14 +193,6 @@ bool take_baseline(Options& options) {
   return true;
 }
 
-InputFile typed_rules(const Options& options) {
-  InputFile file{"<-e>", {}};
-  for (const std::string& rule : options.rules) {
-    file.text += (begins_item(rule) ? "" : "prove ") + rule + '\n';
-  }
-  return file;
-}
-
 bool is_property_file(const std::string& name) {
   return name.ends_with(".ltl") || name.ends_with(".btp");
 }
@@ -349,7 +231,8 @@ std::optional<Inputs> gather_inputs(const std::string& tree,
     if (read.value) inputs.properties.push_back(std::move(*read.value));
   }
   if (inputs.properties.size() < names.size()) return std::nullopt;
-  if (!options.rules.empty()) inputs.properties.push_back(typed_rules(options));
+  if (!options.rules.empty())
+    inputs.properties.push_back(typed_rules(options.rules));
   std::optional<std::string> tree_name = tree;
   if (is_property_file(tree)) {
     tree_name = tree_named_by(inputs.properties[0], found);

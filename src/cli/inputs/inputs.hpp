@@ -20,10 +20,6 @@ namespace btcheck {
 // "rules.ltl", "rules.btp".
 bool is_property_file(const std::string& name);
 
-// What -e says, as a file of rules: each on a line of its own, and one without
-// a name behind `prove`.
-InputFile typed_rules(const Options& options);
-
 struct Inputs {
   TreeInput tree;  // with the files that it includes
   std::vector<InputFile> properties;

@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 #include "cli/options/tables.hpp"
 
 namespace btcheck {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the rooms above share of the command line, without all its options: the
-// version, the exit codes, formats of reports, and values that are more than a
-// word.
+// What the rooms above share of the command line, without all its options:
+// formats of reports, and values that are more than a word.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include "report/exit_code.hpp"
+#include "text/version.hpp"
+
 namespace btcheck {
-
-inline constexpr std::string_view kVersion = "0.1.0";
-
-// `--help` and the man page tell what each means.
-enum class ExitCode : std::uint8_t {
-  Met = 0,        // every property met its expectation
-  Missed = 1,     // some property missed its expectation
-  BadInput = 2,   // usage, input or model error: nothing was checked
-  Undecided = 3,  // a limit, timeout or interrupt, and nothing violated
-  Internal = 4    // our mistake
-};
 
 // In the order of --format in tables.cpp.
 enum class ReportFormat : std::uint8_t {

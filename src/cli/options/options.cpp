@@ -3,7 +3,7 @@
 // What the words of a command line mean, and which do not go together. What is
 // refused is thrown as a Refusal.
 #include "cli/options/options.hpp"
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 
 #include <fmt/format.h>
 

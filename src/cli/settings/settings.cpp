@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 #include "cli/settings/key_reader.hpp"
 #include "cli/settings/toml.hpp"
 #include "model/tree_file.hpp"

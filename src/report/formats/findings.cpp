@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 #include "model/tree/node_types.hpp"
 #include "report/text/report.hpp"
 #include "trace/run/record.hpp"

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "cli/options/interface.hpp"
 #include "report/formats/formats.hpp"
 #include "report/text/report.hpp"
 #include "report/text/space_report.hpp"
+#include "text/version.hpp"
 
 namespace btcheck {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 #include "report/formats/escapes.hpp"
 #include "report/formats/formats.hpp"
 #include "report/text/report.hpp"

@@ -13,8 +13,7 @@
 #include <vector>
 
 #include "check/check.hpp"
-#include "cli/options/interface.hpp"
-#include "cli/options/options.hpp"
+#include "report/exit_code.hpp"
 #include "trace/run/record.hpp"
 
 namespace btcheck {

@@ -9,11 +9,11 @@
 #include <iterator>
 #include <map>
 
-#include "cli/codes/codes.hpp"
-#include "cli/options/interface.hpp"
+#include "report/codes/codes.hpp"
 #include "report/formats/escapes.hpp"
 #include "report/formats/formats.hpp"
 #include "text/json.hpp"
+#include "text/version.hpp"
 
 namespace btcheck {
 namespace {

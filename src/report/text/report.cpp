@@ -513,6 +513,16 @@ ExitCode exit_code_of(const CheckResult& result) {
   return code;
 }
 
+ExitCode lint_code_of(const CheckResult& result) {
+  if (result.is_broken) return ExitCode::BadInput;
+  return std::ranges::any_of(result.diagnostics,
+                             [](const Diagnostic& found) {
+                               return found.severity != Severity::Note;
+                             })
+             ? ExitCode::Missed
+             : ExitCode::Met;
+}
+
 ExitCode worst_of(ExitCode one, ExitCode other) {
   for (const ExitCode code : {ExitCode::Internal, ExitCode::BadInput,
                               ExitCode::Missed, ExitCode::Undecided}) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "check/check.hpp"
-#include "cli/options/interface.hpp"
+#include "report/exit_code.hpp"
 #include "trace/formats/text.hpp"
 #include "trace/run/record.hpp"
 
@@ -51,6 +51,8 @@ std::string_view stop_word(StopReason reason);
 // The exit code for the results of one file, and of all: BadInput for none.
 ExitCode exit_code_of(const CheckedFile& file);
 ExitCode exit_code_of(const CheckResult& result);
+// That of `lint`: Missed where there is more than notes.
+ExitCode lint_code_of(const CheckResult& result);
 // The more serious of two: 4 before 2, 1, 3, 0.
 ExitCode worst_of(ExitCode one, ExitCode other);
 

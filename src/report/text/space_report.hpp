@@ -10,7 +10,6 @@
 
 #include "check/questions/contribution.hpp"
 #include "check/space/space.hpp"
-#include "cli/options/options.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck {

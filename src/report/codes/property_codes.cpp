@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What is wrong with a property file, alone or together with its tree.
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 
 namespace btcheck {
 namespace {

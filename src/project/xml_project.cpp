@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "cli/inputs/project.hpp"
+#include "project/xml_project.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <utility>
 
-#include "cli/inputs/files.hpp"
 #include "model/tree_file.hpp"
 
 namespace btcheck {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kMostFiles = 1000;        // of one folder
-constexpr std::uintmax_t kMostBytes = 1 << 20;  // a tree is smaller
 
 // How many folders lie between the two files.
 std::ptrdiff_t distance_of(const fs::path& one, const fs::path& other) {
@@ -27,36 +23,17 @@ std::ptrdiff_t distance_of(const fs::path& one, const fs::path& other) {
 
 }  // namespace
 
-void XmlProject::add(const std::vector<std::string>& roots,
-                     const std::string& name) {
-  if (!is_xml_name(name) || !looked_at_.insert(name).second) return;
-  std::error_code fault;
-  if (!fs::is_regular_file(name, fault) ||
-      fs::file_size(name, fault) > kMostBytes) {
-    return;
-  }
-  auto read = read_file_in(roots, name);
-  if (!read.value) return;
-  auto outline = outline_of(read.value->text);
+bool XmlProject::is_new(const std::string& name) {
+  return is_xml_name(name) && looked_at_.insert(name).second;
+}
+
+void XmlProject::add(const std::string& name, std::string text) {
+  auto outline = outline_of(text);
   if (!outline) return;
   const auto at = std::ranges::lower_bound(
       files_, name, {},
       [](const ProjectFile& file) { return std::string_view(file.file.name); });
-  files_.insert(at, {{name, std::move(read.value->text)}, std::move(*outline)});
-}
-
-void XmlProject::add_beside(const std::vector<std::string>& roots,
-                            const std::string& file) {
-  const fs::path folder = fs::path(file).parent_path();
-  std::vector<std::string> names;
-  std::error_code fault;
-  fs::directory_iterator at(folder.empty() ? "." : folder, fault);
-  for (; !fault && at != fs::directory_iterator(); at.increment(fault)) {
-    // As `beside` and `included_name` write it.
-    names.push_back((folder / at->path().filename()).lexically_normal());
-    if (names.size() > kMostFiles) return;
-  }
-  for (const std::string& name : names) add(roots, name);
+  files_.insert(at, {{name, std::move(text)}, std::move(*outline)});
 }
 
 const ProjectFile* XmlProject::file(std::string_view name) const {

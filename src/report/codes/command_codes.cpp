@@ -2,7 +2,7 @@
 //
 // What is wrong with a command line, with files other than trees and rules, and
 // with memory.
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 
 #include <fmt/format.h>
 

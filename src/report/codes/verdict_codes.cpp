@@ -3,7 +3,7 @@
 // What a check finds, and what `lint` finds besides the warnings of the
 // readers. Codes are part of the interface: a row may be reworded but never
 // mean something else, and new ones get new codes.
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 
 namespace btcheck {
 namespace {

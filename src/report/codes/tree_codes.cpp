@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What is wrong with a .btf tree.
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 
 namespace btcheck {
 namespace {

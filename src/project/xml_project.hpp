@@ -26,12 +26,11 @@ struct NearestFile {
 
 class XmlProject {
  public:
-  // Adds a file, unless it is there or is none of BehaviorTree.CPP. `roots` as
-  // read_file_in has them.
-  void add(const std::vector<std::string>& roots, const std::string& name);
-  // Those in the folder that holds the file; not below it.
-  void add_beside(const std::vector<std::string>& roots,
-                  const std::string& file);
+  // Whether a file of this name was never looked at, and may be one of these.
+  // From now on it was.
+  bool is_new(const std::string& name);
+  // Adds a file that is new, unless it is none of BehaviorTree.CPP.
+  void add(const std::string& name, std::string text);
 
   const std::vector<ProjectFile>& files() const { return files_; }
   // The file of this name, or nullptr.

@@ -2,7 +2,7 @@
 //
 // BehaviorTree.CPP's XML: mistakes, what is left open, and contracts of leaves
 // beside it.
-#include "cli/codes/codes.hpp"
+#include "report/codes/codes.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+//
+// Trees and rules, checked in memory: the header of btcheck::check for other
+// people's programs. It needs the standard library alone.
+//
+//     btcheck::v1::Files files;
+//     files.add("patrol.xml", text);
+//     btcheck::v1::Request request;
+//     request.tree = "patrol.xml";
+//     const auto report = btcheck::v1::check(request, files);
+//     for (const auto& finding : report.findings) {
+//       std::cout << finding.where.line << ": " << finding.message << '\n';
+//     }
+//
+// A call reads no file, no environment and no clock but the steady one, writes
+// nothing and keeps nothing: calls in several threads know nothing of each
+// other. What is wrong with a tree or its rules is a finding; what is wrong
+// with the call itself, a profile that does not exist, throws
+// std::invalid_argument. Version 1 of this interface stays as it is: names are
+// added, and a change of meaning is a namespace of its own.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace btcheck::v1 {
+
+// --- What goes in ---------------------------------------------------------
+
+// Where texts come from. Asked by the thread that called, while the call lasts.
+class Sources {
+ public:
+  virtual ~Sources() = default;
+
+  // The text of a file; nothing where there is none. An <include path="b.xml">
+  // in "trees/a.xml" asks for "trees/b.xml".
+  virtual std::optional<std::string> text(const std::string& name) = 0;
+
+  // The files that the program registers beside the tree's: their trees may be
+  // used without an <include>, and their models count.
+  virtual std::vector<std::string> files() { return {}; }
+
+  // The share folder of a ROS package, for <include ros_pkg="...">; "" where
+  // there is none.
+  virtual std::string package(const std::string& /*name*/) { return {}; }
+};
+
+// Texts by their names. All of them are files of the program.
+class Files final : public Sources {
+ public:
+  void add(std::string name, std::string text);
+  void add_package(std::string name, std::string folder);
+
+  std::optional<std::string> text(const std::string& name) override;
+  std::vector<std::string> files() override;
+  std::string package(const std::string& name) override;
+
+ private:
+  std::map<std::string, std::string> texts_;
+  std::map<std::string, std::string> packages_;
+};
+
+struct Request {
+  std::string tree;                // the name of a file: XML, or .btf
+  std::vector<std::string> rules;  // names of files of rules
+  // Rules as on a command line: "never dock.failure".
+  std::vector<std::string> typed_rules;
+  std::vector<std::string> leaves;  // names of files of contracts
+  std::vector<std::string> models;  // names of files with <TreeNodesModel>
+  std::string profile;              // "nav2-jazzy"; "": as the files say
+  std::string main_tree;            // its ID; "": as the file says
+  int tick_milliseconds = 100;      // what one tick of the root takes
+  bool loops = false;               // ticked again after it has ended
+  bool wake_ups = false;            // ticked by tickOnce
+  bool tries_repairs = true;        // a checked change beside findings
+  unsigned threads = 1;
+
+  // 0: no limit. Seconds count from the call, through all that is done.
+  double seconds = 0;
+  std::uint64_t states = 0;
+  std::uint64_t bytes = 0;  // of what a search stores
+};
+
+struct Progress {
+  std::uint64_t states = 0;       // stored
+  std::uint64_t transitions = 0;  // taken
+  double seconds = 0;             // since the call
+};
+
+// Asked by the threads of the call, a hundred times a second or more.
+class Monitor {
+ public:
+  virtual ~Monitor() = default;
+  // False ends the call within a tenth of a second: what is known then is in
+  // the report.
+  virtual bool goes_on(const Progress& progress) = 0;
+};
+
+// --- What comes out -------------------------------------------------------
+
+enum class Level : std::uint8_t { Note, Warning, Error };
+enum class Verdict : std::uint8_t { Holds, Violated, Undecided };
+
+// As the exit codes of the program.
+enum class Outcome : std::uint8_t {
+  Met = 0,        // every rule is as expected; without rules: no fault
+  Missed = 1,     // some rule is not, or a finding is an error
+  BadInput = 2,   // nothing was checked
+  Undecided = 3,  // a limit was reached, and nothing is violated
+  Internal = 4    // a mistake of btcheck
+};
+
+// Lines and columns count from 1, columns and lengths in code points. Line 0:
+// the file as a whole.
+struct Position {
+  std::string file;
+  std::size_t line = 0;
+  std::size_t column = 0;
+  std::size_t length = 0;
+};
+
+struct Step {
+  std::string text;        // "tick 2 begins", "dock -> failure"
+  int time = 0;            // units of time since the beginning: ticks, mostly
+  bool is_chosen = false;  // by the world outside, not by the tree
+  Position where;
+};
+
+struct Run {
+  std::vector<Step> steps;
+  // Of an endless run: the number of the step with which its loop begins.
+  std::optional<std::size_t> loop;
+};
+
+// Lines [first, first + removed) of a file become `added`.
+struct Change {
+  std::string file;
+  std::size_t first = 1;
+  std::size_t removed = 0;
+  std::vector<std::string> added;
+};
+
+struct Finding {
+  std::string code;  // "BT2208"; explain() says what it means
+  Level level = Level::Warning;
+  std::string message;  // its first line is a sentence that stands alone
+  std::string help;     // what to do about it; "" where nothing is known
+  Position where;
+  std::string node;  // names from the root down to the node; "" for none
+  std::optional<Run> run;
+  // With these made the finding is gone, and nothing else breaks: all was
+  // checked again. Empty where there is no such change.
+  std::vector<Change> repair;
+};
+
+struct Rule {
+  std::string name;
+  std::string text;
+  Position where;
+  Verdict verdict = Verdict::Undecided;
+  bool is_met = true;       // the verdict is what the file expects
+  bool is_vacuous = false;  // it holds because it is never asked
+  std::string note;         // how the verdict came about: "after 2 ticks"
+  std::string reason;       // why it is violated
+  std::optional<Run> run;   // that shows it
+};
+
+// Of a tree without rules: a question about the mission as a whole.
+struct Answer {
+  std::string key;       // "can_succeed"
+  std::string question;  // "the mission can succeed"
+  std::string answer;    // "yes, e.g. in tick 1"
+  Verdict verdict = Verdict::Undecided;
+  bool is_fault = false;
+};
+
+// Of a tree without rules: what is proven of a node. Nothing where nodes of its
+// type can never do it.
+struct Node {
+  std::string name;  // unique, as rules have it
+  std::string type;
+  Position where;
+  std::optional<Verdict> is_ticked;  // Holds: some run has it
+  std::optional<Verdict> succeeds;
+  std::optional<Verdict> fails;
+  std::optional<Verdict> runs;
+  std::optional<Verdict> is_halted;
+  std::optional<Verdict> is_skipped;
+};
+
+class Report {
+ public:
+  Outcome outcome = Outcome::Met;
+  std::string tree;
+  std::string profile;  // that was used; "" where nothing was checked
+  std::size_t node_count = 0;
+  std::size_t variable_count = 0;
+  std::uint64_t states = 0;  // the most that a search has stored
+  std::string stopped;       // "timeout", "max-states", ...; "" for no limit
+  std::vector<Finding> findings;
+  std::vector<Rule> rules;
+  std::vector<Answer> answers;
+  std::vector<Node> nodes;
+  double seconds = 0;
+
+  // The report as `btcheck --format json` and `--format sarif` print it.
+  std::string json() const;
+  std::string sarif() const;
+
+  // For check() and lint().
+  struct Whole;
+  std::shared_ptr<const Whole> whole;
+};
+
+struct Explanation {
+  std::string code;
+  std::string summary;      // a few words
+  std::string description;  // whole sentences
+  std::string help;         // what to do about it
+};
+
+// --- Calls ----------------------------------------------------------------
+
+Report check(const Request& request, Sources& sources,
+             Monitor* monitor = nullptr);
+
+// Reads the tree and its rules, and searches nothing.
+Report lint(const Request& request, Sources& sources,
+            Monitor* monitor = nullptr);
+
+// Nothing for a code that does not exist.
+std::optional<Explanation> explain(std::string_view code);
+
+// "0.1.0".
+std::string_view version();
+
+}  // namespace btcheck::v1

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "cli/inputs/file_sources.hpp"
+
+#include <filesystem>
+#include <utility>
+
+#include "cli/inputs/files.hpp"
+#include "model/tree_file.hpp"
+
+namespace btcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFiles = 1000;        // of one folder
+constexpr std::uintmax_t kMostBytes = 1 << 20;  // a tree is smaller
+
+// What a tree may include: a ROS workspace has several repositories, which name
+// each other.
+std::vector<std::string> roots_of_includes(const std::string& tree,
+                                           const Options& options) {
+  std::vector<std::string> roots = options.roots;
+  if (roots.empty() || options.given.contains("--root") ||
+      options.command == Command::Batch || is_given(tree)) {
+    return roots;
+  }
+  const std::string workspace = workspace_of(tree);
+  if (!workspace.empty()) roots.push_back(workspace);
+  return roots;
+}
+
+}  // namespace
+
+void add_file(XmlProject& project, const std::vector<std::string>& roots,
+              const std::string& name) {
+  if (!project.is_new(name)) return;
+  std::error_code fault;
+  if (!fs::is_regular_file(name, fault) ||
+      fs::file_size(name, fault) > kMostBytes) {
+    return;
+  }
+  auto read = read_file_in(roots, name);
+  if (read.value) project.add(name, std::move(read.value->text));
+}
+
+void add_beside(XmlProject& project, const std::vector<std::string>& roots,
+                const std::string& file) {
+  const fs::path folder = fs::path(file).parent_path();
+  std::vector<std::string> names;
+  std::error_code fault;
+  fs::directory_iterator at(folder.empty() ? "." : folder, fault);
+  for (; !fault && at != fs::directory_iterator(); at.increment(fault)) {
+    // As `beside` and `included_name` write it.
+    names.push_back((folder / at->path().filename()).lexically_normal());
+    if (names.size() > kMostFiles) return;
+  }
+  for (const std::string& name : names) add_file(project, roots, name);
+}
+
+FileSources::FileSources(const std::string& tree, const Options& options)
+    : tree_(tree),
+      options_(options),
+      roots_(roots_of_includes(tree, options)),
+      has_folder_(options.project == nullptr && !is_given(tree)) {
+  if (has_folder_) add_beside(beside_, roots_, tree);
+}
+
+const XmlProject& FileSources::project() const {
+  return options_.project == nullptr ? beside_ : *options_.project;
+}
+
+// A file that a ROS package has installed is no stranger's: where it lies, and
+// where a link of `colcon build --symlink-install` leads, may be read from now
+// on, unless the user says what may.
+Result<InputFile> FileSources::text(const std::string& name) {
+  for (const std::string& folder : installed_) {
+    const std::string inside = fs::path(name).lexically_relative(folder);
+    if (inside.empty() || inside.starts_with("..") || roots_.empty() ||
+        options_.given.contains("--root")) {
+      continue;
+    }
+    std::error_code fault;
+    roots_.push_back(folder);
+    roots_.push_back(fs::weakly_canonical(name, fault).parent_path().string());
+    break;
+  }
+  return read_file_in(roots_, name);
+}
+
+NearestFile FileSources::with_tree(std::string_view tree,
+                                   const std::string& from) {
+  NearestFile near = project().with_tree(tree, from);
+  if (near.file == nullptr) near = around_.with_tree(tree, from);
+  if (has_folder_ && near.file == nullptr && !files_around_) {
+    files_around_.emplace(tree_);
+  }
+  while (files_around_ && near.file == nullptr && files_around_->has_more()) {
+    for (const std::string& name : files_around_->next()) {
+      add_file(around_, roots_, name);
+    }
+    near = around_.with_tree(tree, from);
+  }
+  return near;
+}
+
+std::string FileSources::package(std::string_view name,
+                                 const std::string& from) {
+  std::string installed = installed_package(name);
+  if (installed.empty()) return package_folder(name, from);
+  installed_.push_back(installed);
+  return installed;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+//
+// The door for programs: texts in, a report out, and nothing else touched.
+#include "btcheck/check.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "file_text.hpp"
+#include "shell.hpp"
+
+namespace btcheck::api_test {
+namespace {
+
+namespace fs = std::filesystem;
+namespace v1 = btcheck::v1;
+
+v1::Request request_for(std::string tree) {
+  v1::Request request;
+  request.tree = std::move(tree);
+  return request;
+}
+
+std::string tree_of(const std::string& body, const std::string& more = "") {
+  return "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\">" + more +
+         "<BehaviorTree ID=\"M\">" + body + "</BehaviorTree></root>";
+}
+
+// What differs from run to run, and what only a command has.
+nlohmann::json comparable(const std::string& text) {
+  nlohmann::json report = nlohmann::json::parse(text);
+  report.erase("timing");
+  for (nlohmann::json& tree : report["trees"]) tree.erase("timing");
+  return report;
+}
+
+TEST_CASE("findings stand where they are, with runs and repairs") {
+  v1::Files files;
+  files.add(
+      "a.xml",
+      tree_of("<ReactiveSequence><IsOpen/>\n<OpenDoor/>\n"
+              "<Sequence><Go/></Sequence></ReactiveSequence>",
+              "<TreeNodesModel><Condition ID=\"IsOpen\"/></TreeNodesModel>"));
+  const v1::Report report = v1::check(request_for("a.xml"), files);
+  CHECK(report.outcome == v1::Outcome::Met);
+  CHECK(report.node_count == 6);
+  CHECK(report.states > 10);
+  CHECK(report.stopped.empty());
+  const auto found =
+      std::ranges::find(report.findings, "BT2211", &v1::Finding::code);
+  REQUIRE(found != report.findings.end());
+  CHECK(found->level == v1::Level::Warning);
+  CHECK(found->where.file == "a.xml");
+  CHECK(found->where.line == 2);
+  CHECK(found->where.column == 2);
+  CHECK(found->message.find("Help") == std::string::npos);
+  CHECK_FALSE(found->help.empty());
+  REQUIRE(found->run);
+  CHECK(std::ranges::any_of(found->run->steps, [](const v1::Step& step) {
+    return step.text == "OpenDoor -> success";
+  }));
+  const auto node =
+      std::ranges::find(report.nodes, "OpenDoor", &v1::Node::type);
+  CHECK(node == report.nodes.end());  // its type is Action
+  CHECK(report.answers.size() == 7);
+}
+
+TEST_CASE("includes, neighbours, packages, models, contracts and rules") {
+  v1::Files files;
+  files.add("trees/a.xml",
+            tree_of("<Sequence><SubTree ID=\"Inside\"/><SubTree ID=\"Near\"/>"
+                    "<SubTree ID=\"Packed\"/></Sequence>",
+                    "<include path=\"b.xml\"/>"
+                    "<include ros_pkg=\"robot\" path=\"trees/p.xml\"/>"));
+  files.add("trees/b.xml",
+            "<root BTCPP_format=\"4\"><BehaviorTree "
+            "ID=\"Inside\"><A/></BehaviorTree></root>");
+  files.add("near.xml",
+            "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Near\">"
+            "<B/></BehaviorTree></root>");
+  files.add("share/robot/trees/p.xml",
+            "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Packed\"><C/>"
+            "</BehaviorTree></root>");
+  files.add_package("robot", "share/robot");
+  files.add("c.leaves",
+            "(defaction A :returns (success))\n"
+            "(defaction B :returns (success))\n"
+            "(defaction C :returns (success))\n");
+  files.add("r.ltl", "property goes: never root.failure\n");
+  v1::Request request = request_for("trees/a.xml");
+  request.leaves = {"c.leaves"};
+  request.rules = {"r.ltl"};
+  request.typed_rules = {"never A.failure", "never C.success"};
+  const v1::Report report = v1::check(request, files);
+  for (const v1::Finding& each : report.findings) INFO(each.message);
+  REQUIRE(report.rules.size() == 3);
+  CHECK(report.rules[0].name == "goes");
+  CHECK(report.rules[0].verdict == v1::Verdict::Holds);
+  CHECK(report.rules[1].verdict == v1::Verdict::Holds);
+  CHECK(report.rules[2].verdict == v1::Verdict::Violated);
+  CHECK(report.rules[2].run);
+  CHECK(report.outcome == v1::Outcome::Missed);
+}
+
+TEST_CASE("what is wrong is a finding, and nothing is checked") {
+  v1::Files files;
+  files.add("a.xml", tree_of("<Sequence><A/>"));
+  const v1::Report torn = v1::check(request_for("a.xml"), files);
+  CHECK(torn.outcome == v1::Outcome::BadInput);
+  REQUIRE_FALSE(torn.findings.empty());
+  CHECK(torn.findings[0].level == v1::Level::Error);
+  const v1::Report gone = v1::check(request_for("b.xml"), files);
+  CHECK(gone.outcome == v1::Outcome::BadInput);
+  REQUIRE(gone.findings.size() == 1);
+  CHECK(gone.findings[0].code == "BT0002");
+  CHECK(gone.findings[0].where.file == "b.xml");
+  v1::Request odd = request_for("a.xml");
+  odd.profile = "btcpp-99";
+  CHECK_THROWS_AS(v1::check(odd, files), std::invalid_argument);
+}
+
+TEST_CASE("lint reads and searches nothing, and codes are explained") {
+  v1::Files files;
+  files.add("a.xml", tree_of("<Fallback><AlwaysSuccess/><A/></Fallback>"));
+  const v1::Report report = v1::lint(request_for("a.xml"), files);
+  CHECK(report.outcome == v1::Outcome::Missed);
+  CHECK(report.states == 0);
+  CHECK(std::ranges::count(report.findings, "BT1629", &v1::Finding::code) == 1);
+  const auto told = v1::explain("bt1629");
+  REQUIRE(told);
+  CHECK(told->code == "BT1629");
+  CHECK_FALSE(told->description.empty());
+  CHECK_FALSE(v1::explain("BT0000"));
+}
+
+// Counts how often it is asked, and ends the call.
+class Ends final : public v1::Monitor {
+ public:
+  explicit Ends(double after) : after_(after) {}
+  bool goes_on(const v1::Progress& progress) override {
+    return progress.seconds < after_;
+  }
+
+ private:
+  double after_;
+};
+
+std::string wide(int count) {
+  std::string text = "(BehaviorTree :name t :loop 1 (ParallelAll";
+  for (int i = 0; i < count; ++i)
+    text += " (Action :ID a" + std::to_string(i) + ")";
+  return text + "))";
+}
+
+double seconds_of(const auto& call) {
+  const auto begin = std::chrono::steady_clock::now();
+  call();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
+      .count();
+}
+
+TEST_CASE("a monitor ends a search, and reading") {
+  v1::Files files;
+  files.add("wide.btf", wide(16));
+  std::string large = "<Sequence>";
+  for (int i = 0; i < 4000; ++i) large += "<A/><B/>";
+  files.add("large.xml", tree_of(large + "</Sequence>"));
+  v1::Report report;
+  Ends soon(0.2);
+  // Generous, for a machine that does other things as well.
+  CHECK(seconds_of([&] {
+          report = v1::check(request_for("wide.btf"), files, &soon);
+        }) < 10);
+  CHECK(report.outcome == v1::Outcome::Undecided);
+  CHECK(report.stopped == "interrupted");
+  CHECK(report.states > 0);
+  Ends at_once(0);
+  const v1::Report unread =
+      v1::check(request_for("large.xml"), files, &at_once);
+  CHECK(unread.outcome == v1::Outcome::Undecided);
+  REQUIRE(unread.findings.size() == 1);
+  CHECK(unread.findings[0].code == "BT9003");
+  v1::Request limited = request_for("wide.btf");
+  limited.seconds = 0.2;
+  CHECK(v1::check(limited, files).stopped == "timeout");
+  limited = request_for("wide.btf");
+  limited.states = 5000;
+  CHECK(v1::check(limited, files).stopped == "max-states");
+}
+
+TEST_CASE("reports are those of the program") {
+  for (const std::string name : {"drone1.btf", "nav2.btf"}) {
+    CAPTURE(name);
+    const fs::path folder = BTCHECK_EXAMPLES;
+    v1::Files files;
+    files.add(name, file_text(folder / name));
+    const v1::Report report = v1::check(request_for(name), files);
+    const Outcome told =
+        run_in(folder, "'" BTCHECK_PROGRAM "' " + name +
+                           " --no-config --format json 2>/dev/null");
+    const bool are_same = comparable(report.json()) == comparable(told.text);
+    CHECK(are_same);
+    CHECK(static_cast<int>(report.outcome) == told.code);
+  }
+}
+
+TEST_CASE("calls in several threads know nothing of each other") {
+  const std::string name = "drone1.btf";
+  v1::Files files;
+  files.add(name, file_text(fs::path(BTCHECK_EXAMPLES) / name));
+  files.add("a.xml",
+            tree_of("<ReactiveSequence><IsOpen/><A/><B/></ReactiveSequence>"));
+  const auto whole = [&](const std::string& tree) {
+    return comparable(v1::check(request_for(tree), files).json());
+  };
+  const std::vector<nlohmann::json> alone = {whole(name), whole("a.xml")};
+  const int rounds = BTCHECK_API_ROUNDS;
+  std::vector<int> different(8, 0);
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < different.size(); ++t) {
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < rounds; ++i) {
+        const std::size_t which = (t + static_cast<std::size_t>(i)) % 2;
+        different[t] += whole(which == 0 ? name : "a.xml") != alone[which];
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const int count : different) CHECK(count == 0);
+}
+
+}  // namespace
+}  // namespace btcheck::api_test
