@@ -9,7 +9,7 @@
 //     request.tree = "patrol.xml";
 //     const auto report = btcheck::v1::check(request, files);
 //     for (const auto& finding : report.findings) {
-//       std::cout << finding.where.line << ": " << finding.message << '\n';
+//       show(finding.where.file, finding.where.line, finding.message);
 //     }
 //
 // A call reads no file, no environment and no clock but the steady one, writes
