@@ -135,7 +135,13 @@ ExitCode run_export(const Options& options) {
       judge(inputs->tree, inputs->options.judgement, model.diagnostics);
   show(options, model.diagnostics);
   if (!model.value) return ExitCode::BadInput;
-  print_exactly(harmless(*model.value));  // `::` is of Promela
+  // Line by line, for a model may be long; `::` is of Promela.
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  for (std::string_view rest = *model.value; !rest.empty();) {
+    const std::size_t end = std::min(rest.find('\n', kPiece), rest.size() - 1);
+    print_exactly(harmless(rest.substr(0, end + 1)));
+    rest.remove_prefix(end + 1);
+  }
   return judged.is_denied ? ExitCode::Missed : ExitCode::Met;
 }
 

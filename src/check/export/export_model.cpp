@@ -332,7 +332,7 @@ class ModelExport {
   std::string finished(Result<std::string> model, std::string_view before,
                        std::string_view behind) {
     add(std::move(model.diagnostics));
-    std::string text = model.value.value_or("");
+    std::string text = model.value ? std::move(*model.value) : "";
     if (!left_out_.empty()) text += "\n";
     for (const std::string& message : left_out_) {
       text += fmt::format("{}{}{}\n", before, comment_text(message), behind);

@@ -273,7 +273,7 @@ bool LogPlayer::call_above(std::size_t node) {
 }
 
 bool LogPlayer::is_below(std::size_t node, std::size_t above) const {
-  while (node > above) node = *heading_.nodes[node].parent;
+  while (node != above && node != 0) node = *heading_.nodes[node].parent;
   return node == above;
 }
 

@@ -73,7 +73,8 @@ class Model {
     if (!result.diagnostics.empty()) return result;
     std::string text =
         model_heading(tree_, network_.ticks, "/* ", " * ") + " */\n\n";
-    text += declarations() + process();
+    text += declarations();
+    add_process(text);
     for (const ExportClaim& claim : claims_) text += claim_text(claim);
     result.value = std::move(text);
     return result;
@@ -127,8 +128,9 @@ class Model {
     return text;
   }
 
-  std::string process() {
-    std::string text = "\n";
+  // Most of the text: it is made in its place.
+  void add_process(std::string& text) {
+    text += "\n";
     if (!due_.empty()) {
       text +=
           "/* goes before every other step */\n" + macro("timer_is_due", due_);
@@ -140,7 +142,7 @@ class Model {
         text += edge_option(AutomatonId{a}, edge);
       }
     }
-    return text + time_options() + unread_option() + "  od\n}\n";
+    text += time_options() + unread_option() + "  od\n}\n";
   }
 
   std::string no_fault() const { return network_.fault ? "!fault" : ""; }

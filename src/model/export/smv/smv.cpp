@@ -163,7 +163,9 @@ class Steps {
       text += fmt::format("TRANS step = {0} -> {0}_may;\n", step_of(number));
     });
     text += fmt::format("TRANS step = {} -> !is_urgent;\n", kTimeStep);
-    return text + next_values() + next_clocks() + next_progress(progress);
+    text += next_values();
+    text += next_clocks() + next_progress(progress);
+    return text;
   }
 
   // The definition of `is_dead`: no step but an idle one leads from the state.
