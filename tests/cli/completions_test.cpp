@@ -8,8 +8,8 @@
 #include <fstream>
 #include <string>
 
-#include "report/codes/codes.hpp"
 #include "cli/options/tables.hpp"
+#include "report/codes/codes.hpp"
 #include "shell.hpp"
 #include "temporary_folder.hpp"
 

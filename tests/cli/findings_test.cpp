@@ -8,8 +8,8 @@
 #include <string>
 
 #include "cli/checked_report.hpp"
-#include "report/codes/codes.hpp"
 #include "model/tree/tree.hpp"
+#include "report/codes/codes.hpp"
 
 namespace btcheck::findings_test {
 namespace {

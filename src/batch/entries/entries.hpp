@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "check/check.hpp"
-#include "project/xml_project.hpp"
 #include "cli/options/interface.hpp"
 #include "cli/settings/choices.hpp"
 #include "cli/settings/settings.hpp"
+#include "project/xml_project.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {

@@ -8,8 +8,8 @@
 #include <functional>
 #include <vector>
 
-#include "report/codes/codes.hpp"
 #include "cli/options/tables.hpp"
+#include "report/codes/codes.hpp"
 
 namespace btcheck {
 namespace {

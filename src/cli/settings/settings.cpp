@@ -9,10 +9,10 @@
 #include <optional>
 #include <utility>
 
-#include "report/codes/codes.hpp"
 #include "cli/settings/key_reader.hpp"
 #include "cli/settings/toml.hpp"
 #include "model/tree_file.hpp"
+#include "report/codes/codes.hpp"
 #include "text/wildcards.hpp"
 #include "trace/run/shown_text.hpp"
 

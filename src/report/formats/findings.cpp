@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "report/codes/codes.hpp"
 #include "model/tree/node_types.hpp"
+#include "report/codes/codes.hpp"
 #include "report/text/report.hpp"
 #include "trace/run/record.hpp"
 
