@@ -72,8 +72,10 @@ class Call final : public Budget, public SearchMonitor {
     } else if (monitor_ != nullptr && now >= next_) {
       next_ = now + kAskEvery;
       progress.seconds = now;
-      is_stopped_ = !monitor_->goes_on(progress);
-      if (is_stopped_) what = Spent::Interrupted;
+      if (!monitor_->goes_on(progress)) {
+        is_stopped_ = true;
+        what = Spent::Interrupted;
+      }
     }
     if (what != Spent::Nothing && stopped_at_ < 0) stopped_at_ = now;
     return what;

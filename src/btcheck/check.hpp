@@ -93,7 +93,8 @@ struct Progress {
   double seconds = 0;             // since the call
 };
 
-// Asked by the threads of the call, a hundred times a second or more.
+// Asked by the threads of the call, a hundred times a second or more. Must not
+// throw; what a source throws leaves the call.
 class Monitor {
  public:
   virtual ~Monitor() = default;
