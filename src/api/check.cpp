@@ -323,6 +323,7 @@ Report called(const Request& request, Sources& sources, Monitor* monitor,
   const BudgetScope budget(&call);
   CheckResult result;
   ExitCode code = ExitCode::BadInput;
+  StopReason stopped = StopReason::None;
   try {
     AskedSources asked(sources);
     std::vector<Diagnostic> found;
@@ -334,8 +335,11 @@ Report called(const Request& request, Sources& sources, Monitor* monitor,
     result = {};
     result.diagnostics = {spent_diagnostic(spent, request.tree)};
     code = ExitCode::Undecided;
+    stopped = stop_reason(spent.spent());
   }
-  return report_of(result, request.tree, code, call);
+  Report report = report_of(result, request.tree, code, call);
+  if (report.stopped.empty()) report.stopped = stop_word(stopped);
+  return report;
 }
 
 }  // namespace

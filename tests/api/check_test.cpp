@@ -189,6 +189,7 @@ TEST_CASE("a monitor ends a search, and reading") {
   CHECK(unread.outcome == v1::Outcome::Undecided);
   REQUIRE(unread.findings.size() == 1);
   CHECK(unread.findings[0].code == "BT9003");
+  CHECK(unread.stopped == "interrupted");
   v1::Request limited = request_for("wide.btf");
   limited.seconds = 0.2;
   CHECK(v1::check(limited, files).stopped == "timeout");
