@@ -89,6 +89,15 @@ class Call final : public Budget, public SearchMonitor {
   std::atomic<double> stopped_at_ = -1;  // seconds; before: negative
 };
 
+Diagnostic error_of(std::string_view code, const std::string& file,
+                    std::string message) {
+  Diagnostic error;
+  error.code = code;
+  error.file = file;
+  error.message = std::move(message);
+  return error;
+}
+
 // The user's sources as those of a check.
 class AskedSources final : public btcheck::Sources {
  public:
@@ -103,7 +112,8 @@ class AskedSources final : public btcheck::Sources {
   Result<InputFile> text(const std::string& name) override {
     auto found = sources_.text(name);
     if (found) return {InputFile{name, std::move(*found)}, {}};
-    return {std::nullopt, {missing_file(name)}};
+    return {std::nullopt,
+            {error_of("BT0002", name, fmt::format("cannot find `{}`", name))}};
   }
   NearestFile with_tree(std::string_view tree,
                         const std::string& from) override {
@@ -265,13 +275,8 @@ Node node_of(const ReportedNode& of) {
 
 void add_file(const ReportedFile& file, Report& report) {
   report.profile = file.profile;
-  if (file.stopped != StopReason::None)
-    report.stopped = stop_word(file.stopped);
   for (const ReportedProperty& rule : file.verdicts) {
     report.rules.push_back(rule_of(rule));
-    if (rule.stopped != StopReason::None) {
-      report.stopped = stop_word(rule.stopped);
-    }
   }
   for (const ReportedAnswer& answer : file.answers) {
     report.answers.push_back({answer.key, answer.question, answer.answer,
@@ -283,7 +288,7 @@ void add_file(const ReportedFile& file, Report& report) {
 }
 
 Report report_of(const CheckResult& result, const std::string& tree,
-                 ExitCode code, const Call& call) {
+                 ExitCode code, StopReason stopped, const Call& call) {
   const BudgetScope telling(nullptr);
   auto whole = std::make_shared<Report::Whole>();
   whole->report.trees.push_back(reported(result, tree, code));
@@ -298,21 +303,15 @@ Report report_of(const CheckResult& result, const std::string& tree,
   for (const btcheck::Finding& finding : all_findings(told)) {
     report.findings.push_back(finding_of(finding));
   }
+  for (const CheckedFile& file : result.files) {
+    const StopReason reason = stopped_by(file);
+    if (reason != StopReason::None) stopped = reason;
+  }
+  report.stopped = stop_word(stopped);
   for (const ReportedFile& file : told.files) add_file(file, report);
   report.seconds = told.seconds;
   report.whole = std::move(whole);
   return report;
-}
-
-Diagnostic spent_diagnostic(const BudgetSpent& spent, const std::string& file) {
-  Diagnostic found;
-  found.code = "BT9003";
-  found.file = file;
-  found.message = fmt::format(
-      "UNDECIDED: {} while {}",
-      spent.spent() == Spent::Time ? "the time was up" : "interrupted",
-      spent.doing());
-  return found;
 }
 
 // What both calls have in common; `run` checks the inputs.
@@ -333,13 +332,16 @@ Report called(const Request& request, Sources& sources, Monitor* monitor,
                               found.end());
   } catch (const BudgetSpent& spent) {
     result = {};
-    result.diagnostics = {spent_diagnostic(spent, request.tree)};
+    result.diagnostics = {
+        error_of("BT9003", request.tree,
+                 fmt::format("UNDECIDED: {} while {}",
+                             spent.spent() == Spent::Time ? "the time was up"
+                                                          : "interrupted",
+                             spent.doing()))};
     code = ExitCode::Undecided;
     stopped = stop_reason(spent.spent());
   }
-  Report report = report_of(result, request.tree, code, call);
-  if (report.stopped.empty()) report.stopped = stop_word(stopped);
-  return report;
+  return report_of(result, request.tree, code, stopped, call);
 }
 
 }  // namespace

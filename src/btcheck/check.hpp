@@ -88,8 +88,8 @@ struct Request {
 };
 
 struct Progress {
-  std::uint64_t states = 0;       // stored
-  std::uint64_t transitions = 0;  // taken
+  std::uint64_t states = 0;       // stored by a search, 0 outside one
+  std::uint64_t transitions = 0;  // taken by it
   double seconds = 0;             // since the call
 };
 

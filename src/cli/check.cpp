@@ -48,16 +48,6 @@ void print_statistics(const Options& options, const CheckedFile& file,
                    seconds));
 }
 
-// The limit that was reached, if there was one.
-StopReason stopped_by(const CheckedFile& file) {
-  if (file.defaults) return file.defaults->stopped;
-  StopReason reason = StopReason::None;
-  for (const PropertyVerdict& verdict : file.verdicts) {
-    if (verdict.stopped != StopReason::None) reason = verdict.stopped;
-  }
-  return reason;
-}
-
 // The code, made worse by a complaint that an output could not be written.
 // Shows the complaint; "" is none.
 ExitCode unless_failed(ExitCode code, const std::string& complaint) {

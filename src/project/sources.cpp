@@ -4,8 +4,6 @@
 // its ID; both answers are kept in the reading.
 #include "project/sources.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -13,14 +11,6 @@
 #include "model/tree_file.hpp"
 
 namespace btcheck {
-
-Diagnostic missing_file(const std::string& name) {
-  Diagnostic missing;
-  missing.code = "BT0002";
-  missing.message = fmt::format("cannot find `{}`", name);
-  missing.file = name;
-  return missing;
-}
 
 InputFile typed_rules(const std::vector<std::string>& rules) {
   InputFile file{"<-e>", {}};

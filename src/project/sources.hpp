@@ -39,9 +39,6 @@ class Sources {
   virtual bool is_of_one_program() const = 0;
 };
 
-// BT0002: there is no file of this name.
-Diagnostic missing_file(const std::string& name);
-
 // Rules that are typed, as a file of rules: each on a line of its own, and one
 // without a name behind `prove`.
 InputFile typed_rules(const std::vector<std::string>& rules);

@@ -513,6 +513,15 @@ ExitCode exit_code_of(const CheckResult& result) {
   return code;
 }
 
+StopReason stopped_by(const CheckedFile& file) {
+  if (file.defaults) return file.defaults->stopped;
+  StopReason reason = StopReason::None;
+  for (const PropertyVerdict& verdict : file.verdicts) {
+    if (verdict.stopped != StopReason::None) reason = verdict.stopped;
+  }
+  return reason;
+}
+
 ExitCode lint_code_of(const CheckResult& result) {
   if (result.is_broken) return ExitCode::BadInput;
   return std::ranges::any_of(result.diagnostics,

@@ -48,6 +48,9 @@ std::string stop_text(StopReason reason, const SearchProgress& progress,
 // The reason as one word for programs: "max-states"; "" for none.
 std::string_view stop_word(StopReason reason);
 
+// The limit that was reached, if there was one.
+StopReason stopped_by(const CheckedFile& file);
+
 // The exit code for the results of one file, and of all: BadInput for none.
 ExitCode exit_code_of(const CheckedFile& file);
 ExitCode exit_code_of(const CheckResult& result);

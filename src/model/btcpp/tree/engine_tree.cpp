@@ -263,7 +263,6 @@ class Conversion {
     node.is_guessed =
         element.children.empty() && !element.is_known && !element.is_explicit;
     set_ports(node);
-    node.readings = std::exchange(readings_, {});
     tell_left_open(node);
     rules_.apply(instance, scripts_, node);
     scripts_.add_port_writes(instance, node.contract);
@@ -348,7 +347,6 @@ class Conversion {
                                   "is read while it runs",
                                   element().id, *port(name)),
                       "", "every number of rounds is checked"});
-      read_number(PortType::Int, name);
       return kOpenRounds;
     }
     return *value < 0 ? kEndlessRounds : *value;
@@ -375,13 +373,13 @@ class Conversion {
     const auto value = port(name);
     const auto parsed = value ? as_number<double>(*value) : std::nullopt;
     if (parsed) return ticks(name, std::max(0.0, *parsed * unit_ms));
-    if (!is_of_py_trees()) read_number(PortType::Unsigned, name);
     return open_ticks(name, "long", "takes");
   }
 
-  void read_number(PortType type, std::string_view name) {
+  // A literal was read before; what an entry holds may suit or not.
+  void read_number(Node& node, PortType type, std::string_view name) {
     auto reading = scripts_.reading(at_->subtree, type, name, text(name));
-    if (reading) readings_.push_back(std::move(*reading));
+    if (reading) node.readings.push_back(std::move(*reading));
   }
 
   Duration period() {
@@ -449,9 +447,11 @@ class Conversion {
         break;
       case NodeType::Repeat:
         node.repetitions = rounds("num_cycles");
+        read_number(node, PortType::Int, "num_cycles");
         break;
       case NodeType::RetryUntilSuccessful:
         node.repetitions = rounds("num_attempts");
+        read_number(node, PortType::Int, "num_attempts");
         break;
       case NodeType::Recovery: {
         // Read into an unsigned number: what does not fit is silently 1.
@@ -472,11 +472,15 @@ class Conversion {
       case NodeType::Timeout:
       case NodeType::Wait:
         node.duration = milliseconds("msec");
+        read_number(node, PortType::Unsigned, "msec");
         break;
       case NodeType::Delay:
-        node.duration = is_in(releases::kDelayIsNone)
-                            ? Duration{0, 0}
-                            : milliseconds("delay_msec");
+        if (is_in(releases::kDelayIsNone)) {
+          node.duration = Duration{0, 0};
+          break;
+        }
+        node.duration = milliseconds("delay_msec");
+        read_number(node, PortType::Unsigned, "delay_msec");
         break;
       case NodeType::RateController:
         node.duration = period();
@@ -584,7 +588,6 @@ class Conversion {
   std::set<std::string> told_open_;
   BehaviorTree tree_;
   const BtcppInstance* at_ = nullptr;  // the node that is converted
-  std::vector<Script> readings_;       // Node::readings of it
 };
 
 }  // namespace
