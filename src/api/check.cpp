@@ -110,6 +110,8 @@ class AskedSources final : public btcheck::Sources {
   }
 
   Result<InputFile> text(const std::string& name) override {
+    const InputFile* known = project_.read_file(name);
+    if (known != nullptr) return {*known, {}};
     auto found = sources_.text(name);
     if (found) return {InputFile{name, std::move(*found)}, {}};
     return {std::nullopt,
@@ -168,7 +170,7 @@ std::optional<Inputs> inputs_of(const Request& request, AskedSources& sources,
   reading.wakes = request.wake_ups;
   reading.main_tree = request.main_tree;
   const auto read_all = [&](const std::vector<std::string>& names,
-                            std::vector<BtcppFile>& to) {
+                            std::vector<InputFile>& to) {
     for (const std::string& name : names) {
       InputFile file = read(name);
       to.push_back({name, std::move(file.text)});

@@ -139,7 +139,7 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
   const TreeReading& reading = inputs.tree.reading;
   for (const auto* files : {&reading.models, &reading.leaves, &reading.included,
                             &reading.neighbours}) {
-    for (const BtcppFile& file : *files) {
+    for (const InputFile& file : *files) {
       add(file.name);
       add(file.text);
     }

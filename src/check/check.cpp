@@ -190,7 +190,7 @@ void leave_out_told(const std::vector<TreeFinding>& findings,
 std::vector<InputFile> sources_of(const TreeInput& tree) {
   std::vector<InputFile> sources = {{tree.name, tree.text}};
   for (const auto* files : {&tree.reading.included, &tree.reading.neighbours}) {
-    for (const BtcppFile& file : *files) {
+    for (const InputFile& file : *files) {
       sources.push_back({file.name, file.text});
     }
   }
@@ -278,7 +278,6 @@ std::vector<CheckedFile> prepare_all(const TreeInput& tree,
   }
   const SourceText source(tree.name, tree.text);
   for (std::size_t i = 0; i < rules.size(); ++i) {
-    // Refused: once more, with help that knows the tree.
     if (result.tree && !rules[i].value) {
       rules[i] =
           read_rules(properties[i].name, properties[i].text, *result.tree);

@@ -24,21 +24,16 @@
 #include "model/sampling.hpp"
 #include "model/tree_file.hpp"
 #include "text/diagnostic.hpp"
+#include "text/input_file.hpp"
 
 namespace btcheck {
-
-// A file that has been read, by the name the user knows it by.
-struct InputFile {
-  std::string name;
-  std::string text;
-};
 
 // A tree, and how it is to be read.
 struct TreeInput : InputFile {
   TreeInput() = default;
   TreeInput(InputFile file, TreeReading how = {})
       : InputFile(std::move(file)), reading(std::move(how)) {}
-  TreeInput(std::string file, std::string content)
+  TreeInput(std::string file, FileText content)
       : InputFile{std::move(file), std::move(content)} {}
 
   TreeReading reading;

@@ -294,12 +294,13 @@ class FormReader {
   btcpp::LeafContracts& to_;
 };
 
-std::vector<Diagnostic> read_file(const BtcppFile& file, std::uint32_t number,
+std::vector<Diagnostic> read_file(const InputFile& file, std::uint32_t number,
                                   int tick_ms, btcpp::LeafContracts& to) {
   const SourceText source(file.name, file.text);
   if (auto refusal = source.refuse_binary()) return {std::move(*refusal)};
-  Findings findings(source);
-  const Forms forms = read_forms(file.text, findings);
+  const auto parsed = file.text.parsed<ParsedForms>();
+  const Forms& forms = parsed->forms;
+  Findings findings(source, parsed->findings);
   const Reading reading{forms, findings, {}, tick_ms};
   if (forms.is_complete) FormReader(reading, number, to).read();
   return findings.take();
@@ -311,7 +312,7 @@ std::vector<Diagnostic> read_file(const BtcppFile& file, std::uint32_t number,
 namespace btcheck {
 
 Result<btcpp::LeafContracts> read_leaf_files(
-    const std::vector<BtcppFile>& files, int tick_ms) {
+    const std::vector<InputFile>& files, int tick_ms) {
   Result<btcpp::LeafContracts> result;
   btcpp::LeafContracts all;
   for (std::uint32_t i = 0; i < files.size(); ++i) {

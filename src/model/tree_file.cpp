@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <iterator>
 #include <utility>
@@ -19,13 +18,14 @@
 #include "model/btcpp/unknown_leaves.hpp"
 #include "model/foreign_format.hpp"
 #include "model/tree/node_types.hpp"
+#include "model/tree/releases.hpp"
 #include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
 
 IncludedFile find_tree(const TreeReading& reading, std::string_view id) {
-  for (const BtcppFile& file : reading.neighbours) {
+  for (const InputFile& file : reading.neighbours) {
     const auto outline = outline_of(file.text);
     if (!outline || !outline->has(id)) continue;
     const auto other = reading.as_near.find(id);
@@ -50,7 +50,7 @@ IncludedFile find_included(const TreeReading& reading,
     name = packaged_name(package->second, request.path);
   }
   const auto found =
-      std::ranges::find(reading.included, name, &BtcppFile::name);
+      std::ranges::find(reading.included, name, &InputFile::name);
   if (found != reading.included.end()) return {name, found->text, ""};
   return {name, std::nullopt, fmt::format("there is no file `{}`", name)};
 }
@@ -131,21 +131,15 @@ std::vector<Diagnostic> add_enumerators(const btcpp::LeafContracts& contracts,
   return findings.take();
 }
 
-// The last patch of each minor release, and those between which what is refused
-// has changed; the newest first.
-constexpr std::array kReleases = {41000, 40901, 40804, 40803, 40703, 40602,
-                                  40502, 40403, 40308, 40201, 40101, 40002,
-                                  30808, 30700, 30601, 30506, 30501};
-
 // What the engine of the profile refuses is only a note (BT1651) where an older
 // release takes the whole file; where none does, each is an error.
 void settle_releases(Profile profile, std::vector<Diagnostic>& found) {
   const auto is_refused = [](const Diagnostic& each, int release) {
-    return each.refused_by && each.severity != Severity::Error &&
-           each.refused_by->has(release);
+    return each.severity != Severity::Error && !each.is_doubtful &&
+           is_among(release, each.refused_by);
   };
   const int present = engine_release(profile);
-  const auto newest = std::ranges::find_if(kReleases, [&](int release) {
+  const auto newest = std::ranges::find_if(releases::kKnown, [&](int release) {
     return release < present && release / 10'000 == present / 10'000 &&
            std::ranges::none_of(found, [&](const Diagnostic& each) {
              return is_refused(each, release);
@@ -153,7 +147,7 @@ void settle_releases(Profile profile, std::vector<Diagnostic>& found) {
   });
   for (Diagnostic& each : found) {
     if (!is_refused(each, present)) continue;
-    if (newest == kReleases.end()) {
+    if (newest == releases::kKnown.end()) {
       each.severity = Severity::Error;
       continue;
     }
@@ -168,7 +162,7 @@ void settle_releases(Profile profile, std::vector<Diagnostic>& found) {
 }
 
 Result<BtcppDocument> read_document(const std::string& name,
-                                    const std::string& text,
+                                    const FileText& text,
                                     const TreeReading& reading,
                                     std::vector<std::string> described) {
   BtcppOptions options;
@@ -177,7 +171,6 @@ Result<BtcppDocument> read_document(const std::string& name,
   options.neighbours = reading.neighbours;
   options.keeps_faulty = true;
   options.is_guess = reading.is_guess;
-  options.doubts_models = reading.doubts_models;
   if (reading.profile) {
     options.release = btcpp::dialect_of(*reading.profile);
     if (const int release = engine_release(*reading.profile)) {
@@ -192,10 +185,31 @@ Result<BtcppDocument> read_document(const std::string& name,
       options);
 }
 
-Result<BehaviorTree> read_for_release(const std::string& name,
-                                      const std::string& text,
-                                      const TreeReading& reading) {
-  Result<BehaviorTree> result;
+// A tree read for one release, and what others it may be read for where that
+// one refuses it, the newest first.
+struct ReadTree : Result<BehaviorTree> {
+  std::vector<Profile> others;
+};
+
+// The branch of Nav2 first, where nodes of Nav2 are used.
+std::vector<Profile> profiles_for(const BtcppDocument& document) {
+  using enum Profile;
+  std::vector<Profile> profiles;
+  if (document.release == BtcppRelease::PyTrees) return profiles;
+  const Profile guess = profile_of(document);
+  if (has_nav2(guess)) profiles.push_back(guess);
+  const bool is_3 = document.release == BtcppRelease::V3;
+  for (const Profile each :
+       {Btcpp49, Btcpp48, Btcpp47, Btcpp46, Btcpp45, Btcpp44, Btcpp43, Btcpp42,
+        Btcpp41, Btcpp40, Btcpp37, Btcpp36, Btcpp35, Btcpp351}) {
+    if (is_release_3(each) == is_3) profiles.push_back(each);
+  }
+  return profiles;
+}
+
+ReadTree read_for_release(const std::string& name, const FileText& text,
+                          const TreeReading& reading) {
+  ReadTree result;
   auto leaves = read_leaf_files(reading.leaves, reading.tick_ms);
   auto document = read_document(
       name, text, reading,
@@ -205,6 +219,7 @@ Result<BehaviorTree> read_for_release(const std::string& name,
   };
   add(document.diagnostics);
   if (!document.value) return result;
+  result.others = profiles_for(*document.value);
   if (leaves.value) {
     auto conflicts = add_enumerators(*leaves.value, *document.value);
     add(conflicts);
@@ -240,89 +255,83 @@ Result<BehaviorTree> read_for_release(const std::string& name,
   return result;
 }
 
-// Of an entry, and refused.
-bool is_of_two_types(const Diagnostic& found) {
-  return found.code == "BT1616" && found.severity == Severity::Error;
-}
-
-// The profile for a file that only older releases take: those before 4.9, for
-// its scripts, or because numbers that are passed to its SubTrees are texts
-// there; or those before 3.5.2, whose Parallel has a `threshold`.
-std::optional<Profile> older_profile(const BtcppDocument& document,
-                                     const std::vector<Diagnostic>& found) {
-  if (document.release == BtcppRelease::V3) {
-    const bool has_old_parallel =
-        std::ranges::any_of(found, [](const Diagnostic& each) {
-          return each.severity == Severity::Error &&
-                 each.message.starts_with("`Parallel` has no ");
-        });
-    return has_old_parallel ? std::optional(Profile::Btcpp351) : std::nullopt;
-  }
-  const bool may_be_old =
-      std::ranges::any_of(found, [](const Diagnostic& each) {
-        return each.code == "BT1615" || is_of_two_types(each);
+// What the file was refused for, or would be if a model is right, and not by
+// every release.
+std::vector<Diagnostic> refusals_in(const std::vector<Diagnostic>& found) {
+  std::vector<Diagnostic> refusals;
+  std::ranges::copy_if(
+      found, std::back_inserter(refusals), [](const Diagnostic& each) {
+        return (each.severity == Severity::Error || each.is_doubtful) &&
+               !each.refused_by.empty();
       });
-  if (document.release != BtcppRelease::V4 || !may_be_old) return std::nullopt;
-  const Profile guess = profile_of(document);
-  return has_nav2(guess) ? guess : Profile::Btcpp48;
+  return refusals;
 }
 
 std::ptrdiff_t count_errors(const std::vector<Diagnostic>& found) {
   return std::ranges::count(found, Severity::Error, &Diagnostic::severity);
 }
 
+// "4.8"; "3.5.1", where a later patch refuses what this one takes.
+std::string last_to_take(int release, const std::vector<Diagnostic>& refusals) {
+  const bool is_last_patch =
+      std::ranges::none_of(releases::kKnown, [&](int other) {
+        return other > release && other / 100 == release / 100 &&
+               std::ranges::any_of(refusals, [&](const Diagnostic& each) {
+                 return is_among(other, each.refused_by);
+               });
+      });
+  const std::string text = release_text(release);
+  return is_last_patch ? text.substr(0, text.rfind('.')) : text;
+}
+
 // What the newest release says against it, as a note.
-Diagnostic taken_by_older(Diagnostic flaw, Profile older) {
-  const bool is_3 = is_release_3(older);
+Diagnostic taken_by_older(const std::vector<Diagnostic>& refusals,
+                          Profile older) {
+  Diagnostic flaw = refusals.front();
   flaw.severity = Severity::Note;
   flaw.code = "BT1651";
   flaw.message = fmt::format(
       "refused by BehaviorTree.CPP {}: {}",
-      release_text(is_3 ? kNewestRelease3 : kNewestRelease), flaw.message);
+      release_text(is_release_3(older) ? kNewestRelease3 : kNewestRelease),
+      flaw.message);
   flaw.help = fmt::format("releases up to {} take it: checked as `{}`",
-                          older == Profile::Btcpp351 ? "3.5.1" : "4.8",
+                          last_to_take(engine_release(older), refusals),
                           profile_name(older));
   return flaw;
 }
 
-// A file that only older releases take is read for them, and that is said. So
-// is one whose models alone speak against it.
-Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
+// A file that the newest release refuses is read for the newest that takes it,
+// and that is said. What is wrong in every release is told as the one has it
+// that takes more of the rest.
+Result<BehaviorTree> read_xml(const std::string& name, const FileText& text,
                               const TreeReading& reading) {
-  auto read = read_for_release(name, text, reading);
-  const auto flaw =
-      std::ranges::find_if(read.diagnostics, [](const Diagnostic& each) {
-        return each.code == "BT1615" || is_of_two_types(each) ||
-               (each.code == "BT1609" && each.severity == Severity::Error);
-      });
-  if (flaw == read.diagnostics.end()) return read;
-  const auto doubting_models = [&](TreeReading how) {
-    how.doubts_models = true;
-    return read_for_release(name, text, how);
-  };
-  TreeReading older = reading;
-  older.is_guess = true;
-  if (!reading.profile) {
-    const auto document = read_document(name, text, reading, {});
-    if (!document.value) return read;
-    older.profile = older_profile(*document.value, read.diagnostics);
+  ReadTree best = read_for_release(name, text, reading);
+  const std::vector<Diagnostic> first = refusals_in(best.diagnostics);
+  if (reading.profile || first.empty()) return best;
+  std::vector<Diagnostic> refusals = first;
+  for (const Profile older : std::vector(best.others)) {
+    const bool is_refused =
+        std::ranges::any_of(refusals, [&](const Diagnostic& each) {
+          return is_among(engine_release(older), each.refused_by);
+        });
+    if (is_refused) continue;
+    TreeReading how = reading;
+    how.is_guess = true;
+    how.profile = older;
+    ReadTree again = read_for_release(name, text, how);
+    const auto more = refusals_in(again.diagnostics);
+    refusals.insert(refusals.end(), more.begin(), more.end());
+    const bool is_taken = again.value.has_value();
+    if (is_taken || (!best.value && count_errors(again.diagnostics) <
+                                        count_errors(best.diagnostics))) {
+      best = std::move(again);
+      best.diagnostics.insert(best.diagnostics.begin(),
+                              taken_by_older(first, older));
+    }
+    // No other release is better, or nothing speaks for one.
+    if (is_taken || more.empty()) break;
   }
-  const bool may_be_older = !reading.profile && older.profile;
-  Result<BehaviorTree> again;
-  if (may_be_older) again = read_for_release(name, text, older);
-  if (!again.value && std::ranges::any_of(read.diagnostics, is_of_two_types)) {
-    auto doubting = doubting_models(reading);
-    if (doubting.value) return doubting;
-    if (may_be_older) again = doubting_models(older);
-  }
-  // What is wrong in every release is told as the one has it that takes more.
-  const bool takes_more =
-      may_be_older && !again.diagnostics.empty() &&
-      count_errors(again.diagnostics) < count_errors(read.diagnostics);
-  if (!again.value && !takes_more) return read;
-  again.diagnostics.insert(again.diagnostics.begin(),
-                           taken_by_older(std::move(*flaw), *older.profile));
-  return again;
+  return best;
 }
 
 Result<BehaviorTree> refused(const std::string& name, std::string_view code,
@@ -357,8 +366,7 @@ std::optional<Result<BehaviorTree>> refused_of_btf(const std::string& name,
   return std::nullopt;
 }
 
-Result<BehaviorTree> read_paper(const std::string& name,
-                                const std::string& text,
+Result<BehaviorTree> read_paper(const std::string& name, const FileText& text,
                                 const TreeReading& reading) {
   if (auto refusal = refused_of_btf(name, reading)) return *refusal;
   auto tree = read_btf(name, text, reading.tick_ms);
@@ -396,7 +404,7 @@ std::string packaged_name(std::string_view folder, std::string_view path) {
   return (std::filesystem::path(folder) / path).lexically_normal().string();
 }
 
-Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
+Result<BehaviorTree> read_tree(const std::string& name, const FileText& text,
                                const TreeReading& reading) {
   const Stage stage("the tree was read");
   if (auto foreign = refusal_of_foreign(name, text)) {
@@ -421,7 +429,7 @@ Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
 }
 
 std::vector<Diagnostic> add_unknown_leaves(const std::string& name,
-                                           const std::string& text,
+                                           const FileText& text,
                                            const TreeReading& reading,
                                            UnknownLeaves& to) {
   if (auto foreign = refusal_of_foreign(name, text)) return {*foreign};

@@ -31,19 +31,18 @@ struct TreeReading {
   // in it.
   std::optional<Profile> profile;
   bool is_guess = false;            // the profile: nobody has named it
-  bool doubts_models = false;       // BtcppOptions::doubts_models
   int tick_ms = 100;                // what one tick of the root takes
   bool loops = false;               // ticked again after it has ended
   bool wakes = false;               // ticked by tickOnce
   std::string main_tree;            // its ID; "": as the file says
-  std::vector<BtcppFile> models;    // more <TreeNodesModel>
-  std::vector<BtcppFile> leaves;    // leaf contracts
-  std::vector<BtcppFile> included;  // what <include> may ask for, by its name
+  std::vector<InputFile> models;    // more <TreeNodesModel>
+  std::vector<InputFile> leaves;    // leaf contracts
+  std::vector<InputFile> included;  // what <include> may ask for, by its name
   // The share folders of ROS packages, by their names.
   std::map<std::string, std::string, std::less<>> packages;
   // Files around the tree's: their trees may be used without an <include>, and
   // their models count where nothing else has the type.
-  std::vector<BtcppFile> neighbours;
+  std::vector<InputFile> neighbours;
   // Of trees that are taken from one of these, another file that has one, and
   // is as near; by the tree's ID.
   std::map<std::string, std::string, std::less<>> as_near;
@@ -69,18 +68,18 @@ std::string included_name(std::string_view from, std::string_view path);
 std::string packaged_name(std::string_view folder, std::string_view path);
 
 // Reads a .btf file, or XML of BehaviorTree.CPP.
-Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
+Result<BehaviorTree> read_tree(const std::string& name, const FileText& text,
                                const TreeReading& reading);
 
 // Reads an XML tree and all that it includes, and adds the leaves of which
 // nothing is known.
 std::vector<Diagnostic> add_unknown_leaves(const std::string& name,
-                                           const std::string& text,
+                                           const FileText& text,
                                            const TreeReading& reading,
                                            UnknownLeaves& to);
 
 // Reads files of leaf contracts beside an XML tree, in their order.
 Result<btcpp::LeafContracts> read_leaf_files(
-    const std::vector<BtcppFile>& files, int tick_ms = 100);
+    const std::vector<InputFile>& files, int tick_ms = 100);
 
 }  // namespace btcheck

@@ -13,11 +13,11 @@
 namespace btcheck {
 
 InputFile typed_rules(const std::vector<std::string>& rules) {
-  InputFile file{"<-e>", {}};
+  std::string text;
   for (const std::string& rule : rules) {
-    file.text += (begins_item(rule) ? "" : "prove ") + rule + '\n';
+    text += (begins_item(rule) ? "" : "prove ") + rule + '\n';
   }
-  return file;
+  return {"<-e>", std::move(text)};
 }
 
 namespace {
@@ -25,7 +25,7 @@ namespace {
 void add_neighbour(const ProjectFile& file, TreeReading& reading) {
   const bool is_there = std::ranges::any_of(
       reading.neighbours,
-      [&](const BtcppFile& other) { return other.name == file.file.name; });
+      [&](const InputFile& other) { return other.name == file.file.name; });
   if (!is_there) reading.neighbours.push_back(file.file);
 }
 
@@ -84,7 +84,7 @@ void add_models_around(const InputFile& tree, const Sources& sources,
 
 void add_asked_files(const InputFile& tree, Sources& sources,
                      TreeReading& reading, std::vector<Diagnostic>& found) {
-  read_btcpp(tree.name, tree.text, [&](const IncludeRequest& request) {
+  ask_for_files(tree.name, tree.text, [&](const IncludeRequest& request) {
     return request.tree.empty()
                ? included_file(request, sources, reading, found)
                : file_with_tree(request, tree.name, sources, reading);

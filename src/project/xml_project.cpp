@@ -12,6 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// What XML was parsed into takes several times its size: of so many bytes it is
+// kept for whoever reads the files.
+constexpr std::size_t kMostParsed = 8 << 20;
+
 // How many folders lie between the two files.
 std::ptrdiff_t distance_of(const fs::path& one, const fs::path& other) {
   const fs::path from = one.parent_path();
@@ -27,8 +31,10 @@ bool XmlProject::is_new(const std::string& name) {
   return is_xml_name(name) && looked_at_.insert(name).second;
 }
 
-void XmlProject::add(const std::string& name, std::string text) {
+void XmlProject::add(const std::string& name, FileText text) {
   auto outline = outline_of(text);
+  bytes_ += outline ? text.size() : 0;
+  if (!outline || bytes_ > kMostParsed) text.forget_parsed();
   if (!outline) return;
   const auto at = std::ranges::lower_bound(
       files_, name, {},
@@ -40,6 +46,12 @@ const ProjectFile* XmlProject::file(std::string_view name) const {
   const auto found = std::ranges::find_if(
       files_, [&](const ProjectFile& file) { return file.file.name == name; });
   return found == files_.end() ? nullptr : &*found;
+}
+
+const InputFile* XmlProject::read_file(std::string_view name) const {
+  if (const ProjectFile* found = file(name)) return &found->file;
+  const auto found = std::ranges::find(rules_, name, &InputFile::name);
+  return found == rules_.end() ? nullptr : &*found;
 }
 
 NearestFile XmlProject::with_tree(std::string_view id,

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "model/btcpp/document.hpp"
@@ -15,7 +16,7 @@
 namespace btcheck {
 
 struct ProjectFile {
-  BtcppFile file;
+  InputFile file;
   XmlOutline outline;
 };
 
@@ -30,11 +31,16 @@ class XmlProject {
   // From now on it was.
   bool is_new(const std::string& name);
   // Adds a file that is new, unless it is none of BehaviorTree.CPP.
-  void add(const std::string& name, std::string text);
+  void add(const std::string& name, FileText text);
+
+  // Files of rules about its trees, which somebody has read already.
+  void add_rules(InputFile file) { rules_.push_back(std::move(file)); }
 
   const std::vector<ProjectFile>& files() const { return files_; }
   // The file of this name, or nullptr.
   const ProjectFile* file(std::string_view name) const;
+  // A file of these or of the rules, or nullptr.
+  const InputFile* read_file(std::string_view name) const;
   // Which file a tree that `from` names is taken from: itself, or the one that
   // is nearest by its folders, and of several the first by name.
   NearestFile with_tree(std::string_view id, const std::string& from) const;
@@ -49,6 +55,8 @@ class XmlProject {
   bool is_included(const std::string& name) const;
 
   std::vector<ProjectFile> files_;  // ascending by name
+  std::size_t bytes_ = 0;           // of their texts
+  std::vector<InputFile> rules_;
   std::set<std::string> looked_at_;
 };
 

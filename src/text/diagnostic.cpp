@@ -132,6 +132,17 @@ std::string_view severity_name(Severity severity) {
   return kNames[static_cast<std::size_t>(severity)];
 }
 
+bool is_among(int release, const std::vector<Releases>& stretches) {
+  return std::ranges::any_of(
+      stretches, [&](const Releases& each) { return each.has(release); });
+}
+
+std::vector<Diagnostic> named(std::vector<Diagnostic> found,
+                              std::string_view file) {
+  for (Diagnostic& each : found) each.file = file;
+  return found;
+}
+
 SourceText::SourceText(std::string_view name, std::string_view text)
     : name_(name), text_(text), line_starts_{0} {
   for (std::size_t at = 0; at < text.size(); ++at) {

@@ -50,6 +50,9 @@ struct Releases {
 
 inline constexpr int kNoRelease = 1'000'000;  // later than any
 
+// Whether one of the stretches has it.
+bool is_among(int release, const std::vector<Releases>& stretches);
+
 // One finding about an input, in the shape rustc made customary. The quoted
 // line is kept inside, so a diagnostic can be shown after its text is gone.
 struct Diagnostic {
@@ -64,9 +67,18 @@ struct Diagnostic {
   // Repairs that are proposed, the best first; and one that was checked.
   std::vector<Repair> repairs = {};
   std::optional<CheckedRepair> repair = {};
-  // A note that is an error in these.
-  std::optional<Releases> refused_by = {};
+  // The releases of an engine that refuse the file for it; empty: all of them,
+  // or no engine is asked. Read for one of these it is an error, where it is no
+  // note because it can be read over.
+  std::vector<Releases> refused_by = {};
+  // A warning that is one for all releases, if what a model in the files says
+  // is so in the program.
+  bool is_doubtful = false;
 };
+
+// The same of a file with a name, where it was read without one.
+std::vector<Diagnostic> named(std::vector<Diagnostic> found,
+                              std::string_view file);
 
 // A text and its name. It owns neither: both must outlive the SourceText.
 class SourceText {

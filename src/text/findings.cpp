@@ -45,7 +45,8 @@ void Findings::add(Severity severity, SourceSpan span, Wording wording,
         severity, wording.code, span, std::move(wording.message),
         std::move(wording.label), std::move(wording.help)));
     diagnostics_.back().repairs = std::move(wording.repairs);
-    diagnostics_.back().refused_by = wording.refused_by;
+    diagnostics_.back().refused_by = std::move(wording.refused_by);
+    diagnostics_.back().is_doubtful = wording.is_doubtful;
   } else if (seen_.contains({span.line, span.column, wording.message})) {
     return;
   }

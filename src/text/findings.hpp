@@ -21,7 +21,8 @@ struct Wording {
   std::string label;
   std::string help;
   std::vector<Repair> repairs = {};
-  std::optional<Releases> refused_by = {};
+  std::vector<Releases> refused_by = {};
+  bool is_doubtful = false;
 };
 
 // Keeps one diagnostic per place and message, at most 20 errors and 20
@@ -30,6 +31,13 @@ struct Wording {
 class Findings {
  public:
   explicit Findings(const SourceText& source) : source_(source) {}
+  // Goes on from what was found in the same text, when it had no name.
+  Findings(const SourceText& source, const Findings& so_far)
+      : source_(source),
+        errors_(so_far.errors_),
+        warnings_(so_far.warnings_),
+        seen_(so_far.seen_),
+        diagnostics_(named(so_far.diagnostics_, source.name())) {}
 
   void error(SourceSpan span, Wording wording);
   void warning(SourceSpan span, Wording wording);

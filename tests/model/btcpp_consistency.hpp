@@ -16,7 +16,7 @@ namespace btcheck {
 inline bool is_place_in(const BtcppDocument& document,
                         const BtcppPlace& place) {
   if (place.file >= document.files.size()) return false;
-  const BtcppFile& file = document.files[place.file];
+  const InputFile& file = document.files[place.file];
   const SourceText source(file.name, file.text);
   const int width = static_cast<int>(source.line(place.span.line).size());
   return place.span.line >= 1 && place.span.column >= 1 &&

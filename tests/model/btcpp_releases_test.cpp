@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -414,6 +415,37 @@ TEST_CASE("a negative threshold is not below none of the children in 3.8") {
     const auto found = said_of(text, {});
     CHECK(std::ranges::count(found, "BT1631", &Diagnostic::code) == 1);
   }
+}
+
+TEST_CASE("a file is read for the newest release that takes all of it") {
+  // Until 4.8; from 4.9 on and in 4.6; from 4.7 on.
+  const std::string old = "x == &quot;a&quot;";
+  const std::string joined = "x := a .. b + 1";
+  const std::string compared = "!a == b";
+  const auto read = [](const std::vector<std::string>& scripts) {
+    std::string nodes;
+    for (const std::string& script : scripts) {
+      nodes += "<ScriptCondition code=\"" + script + "\"/>";
+    }
+    return read_tree("t.xml", tree4("<Sequence>" + nodes + "</Sequence>"), {});
+  };
+  const auto profile_for = [&](const std::vector<std::string>& scripts) {
+    const auto found = read(scripts);
+    return found.value ? std::optional(found.value->profile) : std::nullopt;
+  };
+  CHECK(profile_for({joined}) == Profile::Btcpp4);
+  CHECK(profile_for({old}) == Profile::Btcpp48);
+  CHECK(profile_for({old, joined}) == Profile::Btcpp46);
+  CHECK(profile_for({joined, old}) == Profile::Btcpp46);
+  CHECK(profile_for({old, compared}) == Profile::Btcpp48);
+  CHECK(profile_for({old, joined, compared}) == std::nullopt);
+  // A mistake is told as the release has it that takes the rest.
+  const auto mistaken = read({old, joined, "x := ("});
+  CHECK_FALSE(mistaken.value);
+  CHECK(std::ranges::count(mistaken.diagnostics, Severity::Error,
+                           &Diagnostic::severity) == 1);
+  CHECK(std::ranges::count(mistaken.diagnostics, "BT1651", &Diagnostic::code) ==
+        1);
 }
 
 TEST_CASE("a file with such a Parallel is read for 3.5.1, and that is said") {

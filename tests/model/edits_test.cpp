@@ -262,8 +262,7 @@ TEST_CASE("random XML: what is read after an edit is what was meant") {
   for (unsigned seed = 0; seed < 3000; ++seed) {
     RandomXml random(seed);
     const std::string text = random.text();
-    const SourceText source("t.xml", text);
-    const auto before = btcpp::parse_xml(source);
+    const btcpp::ParsedXml before(text);
     INFO(text);
     REQUIRE(before.value);
     Element meant = read(*before.value, 0);
@@ -323,8 +322,7 @@ TEST_CASE("random XML: what is read after an edit is what was meant") {
     }
     const std::string changed = edited("t.xml", text, repair);
     INFO(changed);
-    const SourceText now("t.xml", changed);
-    const auto after = btcpp::parse_xml(now);
+    const btcpp::ParsedXml after(changed);
     REQUIRE(after.value);
     CHECK(read(*after.value, 0) == meant);
     ++edits;

@@ -84,7 +84,7 @@ constexpr double kBoxHeight = 20;  // of nodes, and of nothing else
 
 Picture taken_apart(const std::string& svg) {
   Picture picture;
-  const auto elements = btcpp::parse_xml(SourceText("", svg)).value;
+  const auto elements = btcpp::ParsedXml(svg).value;
   REQUIRE(elements);
   picture.page_size = *elements->front().value("width");
   for (const btcpp::XmlElement& element : *elements) {

@@ -196,9 +196,10 @@ class FolderSearch {
   }
 
   // "" where none can be found, or the file cannot be read: the check says so.
-  std::string tree_for(const std::string& properties) const {
+  std::string tree_for(const std::string& properties) {
     const auto read = read_file_in(roots_, properties);
     if (!read.value) return {};
+    project_->add_rules(*read.value);
     const auto named = tree_of_properties(*read.value);
     if (named.value && !named.value->empty()) {
       return beside(properties, *named.value);
@@ -322,8 +323,7 @@ class NamedTrees {
     names_.push_back(file.string());
     std::vector<std::string> roots = options_.roots;
     if (roots.empty()) roots = {(file.parent_path() / ".").string()};
-    add_file(named_, roots, names_.back());
-    add_file(*project_, roots, names_.back());
+    add_named(names_.back(), roots);
     add_beside(*project_, roots, names_.back());
     if (is_project_name(names_.back())) add_parts(names_.back());
   }
@@ -342,13 +342,21 @@ class NamedTrees {
   }
 
  private:
+  void add_named(const std::string& name,
+                 const std::vector<std::string>& roots) {
+    add_file(named_, roots, name);
+    const ProjectFile* file = named_.file(name);
+    if (file != nullptr && project_->is_new(name)) {
+      project_->add(name, file->file.text);
+    }
+  }
+
   void add_parts(const std::string& name) {
     const ProjectFile* file = named_.file(name);
     if (file == nullptr) return;
     const std::vector<std::string> paths = file->outline.includes;
     for (const std::string& path : paths) {
-      add_file(named_, options_.roots, included_name(name, path));
-      add_file(*project_, options_.roots, included_name(name, path));
+      add_named(included_name(name, path), options_.roots);
     }
   }
 

@@ -92,7 +92,8 @@ KeptResults::Found ResultsFolder::find(const std::string& key) const {
   std::error_code fault;
   if (!fs::exists(fs::symlink_status(name, fault))) return {};
   const auto read = read_file_in({folder_}, name);
-  std::string_view text = read.value ? read.value->text : std::string_view();
+  std::string_view text;
+  if (read.value) text = read.value->text;
   while (text.starts_with('#')) take_line(text);
   if (!text.ends_with('\n')) return {std::nullopt, true};
   text.remove_suffix(1);

@@ -190,8 +190,10 @@ std::string condition_help(const BehaviorTree& tree, const NodeNames& names,
 }
 
 Result<PropertyFile> read_rules(std::string_view file_name,
-                                std::string_view text,
+                                const FileText& text,
                                 const BehaviorTree& tree) {
+  auto read = read_properties(file_name, text);
+  if (read.value) return read;
   const NodeNames names(tree);
   return read_properties(file_name, text, [&](std::string_view name) {
     return condition_help(tree, names, name);

@@ -37,7 +37,6 @@ std::string condition_help(const BehaviorTree& tree, const NodeNames& names,
 
 // `read_properties` for who has the tree.
 Result<PropertyFile> read_rules(std::string_view file_name,
-                                std::string_view text,
-                                const BehaviorTree& tree);
+                                const FileText& text, const BehaviorTree& tree);
 
 }  // namespace btcheck

@@ -47,7 +47,11 @@ bool names(const PropertyFile& rules, const StateVariable& variable) {
 class Linter {
  public:
   Linter(const BehaviorTree& tree, const SourceText& source)
-      : tree_(tree), source_(source) {}
+      : tree_(tree), source_(source) {
+    for (const Node& node : tree.nodes) {
+      if (node.type == NodeType::SetSV) measured_.insert(node.variable);
+    }
+  }
 
   std::vector<Diagnostic> findings(
       const std::vector<const PropertyFile*>& rules) {
@@ -176,9 +180,10 @@ class Linter {
     const auto terms = assignment.value.terms();
     const bool is_constant =
         terms.size() == 1 && terms[0].operation == Operation::Constant;
+    if (!is_constant || variable.transitions.empty()) return;
     const bool are_asked = is_measured(assignment.variable) ||
                            moves_freely(tree_, assignment.variable);
-    if (!is_constant || !are_asked || variable.transitions.empty()) return;
+    if (!are_asked) return;
     const int value = terms[0].operand;
     const bool is_led_to = std::ranges::any_of(
         variable.transitions,
@@ -195,9 +200,7 @@ class Linter {
   }
 
   bool is_measured(StateVariableId variable) const {
-    return std::ranges::any_of(tree_.nodes, [&](const Node& node) {
-      return node.type == NodeType::SetSV && node.variable == variable;
-    });
+    return measured_.contains(variable);
   }
 
   bool is_read(StateVariableId variable) const {
@@ -214,6 +217,7 @@ class Linter {
 
   const BehaviorTree& tree_;
   const SourceText& source_;
+  std::set<StateVariableId> measured_;  // by a SetSV
   std::vector<Diagnostic> found_;
 };
 

@@ -11,6 +11,7 @@
 
 #include "check/findings/facts.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
@@ -28,52 +29,82 @@ std::optional<VariableId> tries_of(const Network& network, NodeId node) {
   return found == locals.end() ? std::nullopt : std::optional(*found);
 }
 
-bool can_change_while(const BehaviorTree& tree, const Term& term,
-                      NodeId running) {
-  const auto number = static_cast<std::uint32_t>(term.operand);
-  if (term.operation == Operation::Status) {
-    return is_ticked_while(tree, NodeId{number}, running);
-  }
-  if (term.operation != Operation::Variable) return false;
-  const StateVariableId variable{number};
-  if (moves_freely(tree, variable)) return true;
-  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
-    if (writes(tree.nodes[n], variable) &&
-        is_ticked_while(tree, NodeId{n}, running)) {
-      return true;
+// The nodes whose answer may be another one later, if anybody asked again.
+class Guards {
+ public:
+  explicit Guards(const BehaviorTree& tree)
+      : tree_(tree), writers_(tree.variables.size()) {
+    for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+      const Node& node = tree.nodes[n];
+      const bool is_asked = node.type == NodeType::Condition ||
+                            node.type == NodeType::SetSV ||
+                            (node.type == NodeType::Eval && !node.assignment);
+      if (is_asked) guards_.push_back(NodeId{n});
     }
   }
-  return false;
-}
 
-bool may_go_stale(const BehaviorTree& tree, const Node& guard, NodeId running) {
-  if (guard.type == NodeType::Condition || guard.type == NodeType::SetSV) {
-    return true;
-  }
-  if (guard.type != NodeType::Eval || guard.assignment) return false;
-  const auto terms = guard.expression.terms();
-  return std::ranges::any_of(terms, [&](const Term& term) {
-    return can_change_while(tree, term, running);
-  });
-}
-
-// Calls found(guard) for those left of an action under every node above it that
-// resumes, until it returns true. Returns whether it has.
-template <class Found>
-bool any_guard(const BehaviorTree& tree, NodeId action, Found&& found) {
-  for (NodeId node = action; !tree.node(node).is_root();
-       node = tree.node(node).parent) {
-    const Node& parent = tree.node(tree.node(node).parent);
-    if (info_of(parent.type).beside != Beside::None) continue;
-    // In pre-order the subtrees to the left are all that lies in between.
-    for (std::uint32_t n = index(parent.children[0]); n < index(node); ++n) {
-      if (may_go_stale(tree, tree.nodes[n], action) && found(NodeId{n})) {
-        return true;
+  // Calls found(guard) for those left of an action under every node above it
+  // that resumes, until it returns true. Returns whether it has.
+  template <class Found>
+  bool any_of(NodeId action, Found&& found) {
+    for (NodeId node = action; !tree_.node(node).is_root();
+         node = tree_.node(node).parent) {
+      const Node& parent = tree_.node(tree_.node(node).parent);
+      if (info_of(parent.type).beside != Beside::None) continue;
+      // In pre-order the subtrees to the left are all that lies in between.
+      for (auto at = std::ranges::lower_bound(guards_, parent.children[0]);
+           at != guards_.end() && *at < node; ++at) {
+        ask_budget();
+        if (may_go_stale(*at, action) && found(*at)) return true;
       }
     }
+    return false;
   }
-  return false;
-}
+
+ private:
+  bool may_go_stale(NodeId guard, NodeId running) {
+    const Node& node = tree_.node(guard);
+    if (node.type != NodeType::Eval) return true;
+    const auto terms = node.expression.terms();
+    return std::ranges::any_of(terms, [&](const Term& term) {
+      return can_change_while(term, running);
+    });
+  }
+
+  bool can_change_while(const Term& term, NodeId running) {
+    const auto number = static_cast<std::uint32_t>(term.operand);
+    if (term.operation == Operation::Status) {
+      return is_ticked_while(tree_, NodeId{number}, running);
+    }
+    if (term.operation != Operation::Variable) return false;
+    const Writers& writers = writers_of(StateVariableId{number});
+    return writers.moves_freely ||
+           std::ranges::any_of(writers.nodes, [&](NodeId writer) {
+             return is_ticked_while(tree_, writer, running);
+           });
+  }
+
+  struct Writers {
+    bool moves_freely = false;
+    std::vector<NodeId> nodes;
+  };
+
+  // Worked out for those that are read.
+  const Writers& writers_of(StateVariableId variable) {
+    std::optional<Writers>& known = writers_[index(variable)];
+    if (known) return *known;
+    known.emplace();
+    known->moves_freely = moves_freely(tree_, variable);
+    for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
+      if (writes(tree_.nodes[n], variable)) known->nodes.push_back(NodeId{n});
+    }
+    return *known;
+  }
+
+  const BehaviorTree& tree_;
+  std::vector<NodeId> guards_;  // ascending
+  std::vector<std::optional<Writers>> writers_;
+};
 
 bool may_run(const Network& network, NodeId node) {
   return network.automaton(node)
@@ -162,9 +193,10 @@ void for_each_way(const BehaviorTree& tree, const Network& network,
 std::vector<NodeId> guarded_actions(const BehaviorTree& tree,
                                     const Network& network) {
   std::vector<NodeId> actions;
+  Guards guards(tree);
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     if (tree.nodes[n].type == NodeType::Action && may_run(network, NodeId{n}) &&
-        any_guard(tree, NodeId{n}, [](NodeId) { return true; })) {
+        guards.any_of(NodeId{n}, [](NodeId) { return true; })) {
       actions.push_back(NodeId{n});
     }
   }
@@ -180,7 +212,7 @@ std::vector<NodeId> stale_guards(const BehaviorTree& tree,
   const auto ran = entries.last(action, LocationRole::Running, 0, end);
   const auto ticked = entries.last(action, LocationRole::Tick, 0, end);
   if (!ran || !ticked || *ticked < *ran) return stale;
-  any_guard(tree, action, [&](NodeId guard) {
+  Guards(tree).any_of(action, [&](NodeId guard) {
     const NodeId above = fork_of(tree, guard, action)->node;
     const std::size_t start = entries.start_of_activation(above);
     if (start <= *ran && entries.last(guard, LocationRole::Tick, start, *ran) &&

@@ -53,15 +53,15 @@ TreeInput input_of(const TreeInput& tree, const EditedFiles& files) {
   edited.text = files.files().front().text;
   auto file = files.files().begin();
   for (auto* others : others_of(edited.reading)) {
-    for (BtcppFile& each : *others) each.text = (++file)->text;
+    for (InputFile& each : *others) each.text = (++file)->text;
   }
   return edited;
 }
 
 EditedFiles files_of(const TreeInput& tree) {
-  std::vector<EditedFile> files = {{tree.name, tree.text}};
+  std::vector<InputFile> files = {{tree.name, tree.text}};
   for (const auto* others : others_of(tree.reading)) {
-    for (const BtcppFile& each : *others) {
+    for (const InputFile& each : *others) {
       files.push_back({each.name, each.text});
     }
   }

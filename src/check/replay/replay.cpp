@@ -46,6 +46,10 @@ NetworkInterpreter::NetworkInterpreter(const Network& network)
     const Automaton& automaton = network.automata[a];
     located_[index(automaton.location)] = a;
     if (automaton.kind == AutomatonKind::Timer) timers_.push_back(&automaton);
+    const bool is_clocked = std::ranges::any_of(
+        automaton.edges,
+        [](const Edge& edge) { return edge.when.needs_clock(); });
+    if (is_clocked) clocked_.push_back(a);
   }
 }
 
@@ -158,7 +162,7 @@ bool NetworkInterpreter::may_wait(const Valuation& state) const {
 // would agree on the mistake.
 void NetworkInterpreter::wait(Valuation& state) const {
   if (is_faulty(state)) return;
-  for (std::size_t a = 0; a < network_.automata.size(); ++a) {
+  for (const std::size_t a : clocked_) {
     const Automaton& automaton = network_.automata[a];
     const LocationId here = location(automaton, state);
     int greatest = 0;

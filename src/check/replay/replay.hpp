@@ -61,6 +61,7 @@ class NetworkInterpreter {
 
   const Network& network_;
   std::vector<const Automaton*> timers_;
+  std::vector<std::size_t> clocked_;  // automata: the clocks of others stay 0
   // By variable: the automaton whose location it is, if any.
   std::vector<std::optional<std::size_t>> located_;
 };

@@ -57,12 +57,17 @@ void add_beside(XmlProject& project, const std::vector<std::string>& roots,
   for (const std::string& name : names) add_file(project, roots, name);
 }
 
-FileSources::FileSources(const std::string& tree, const Options& options)
-    : tree_(tree),
+FileSources::FileSources(const InputFile& tree, const Options& options)
+    : tree_(tree.name),
       options_(options),
-      roots_(roots_of_includes(tree, options)),
-      has_folder_(options.project == nullptr && !is_given(tree)) {
-  if (has_folder_) add_beside(beside_, roots_, tree);
+      roots_(roots_of_includes(tree.name, options)),
+      has_folder_(options.project == nullptr && !is_given(tree.name)) {
+  if (!has_folder_) return;
+  const std::string name = fs::path(tree_).lexically_normal();
+  if (tree.text.size() <= kMostBytes && beside_.is_new(name)) {
+    beside_.add(name, tree.text);
+  }
+  add_beside(beside_, roots_, tree_);
 }
 
 const XmlProject& FileSources::project() const {
@@ -73,6 +78,10 @@ const XmlProject& FileSources::project() const {
 // where a link of `colcon build --symlink-install` leads, may be read from now
 // on, unless the user says what may.
 Result<InputFile> FileSources::text(const std::string& name) {
+  for (const XmlProject* files : {&project(), &std::as_const(around_)}) {
+    const InputFile* known = files->read_file(name);
+    if (known != nullptr) return {*known, {}};
+  }
   for (const std::string& folder : installed_) {
     const std::string inside = fs::path(name).lexically_relative(folder);
     if (inside.empty() || inside.starts_with("..") || roots_.empty() ||
@@ -96,7 +105,7 @@ NearestFile FileSources::with_tree(std::string_view tree,
   }
   while (files_around_ && near.file == nullptr && files_around_->has_more()) {
     for (const std::string& name : files_around_->next()) {
-      add_file(around_, roots_, name);
+      if (beside_.file(name) == nullptr) add_file(around_, roots_, name);
     }
     near = around_.with_tree(tree, from);
   }

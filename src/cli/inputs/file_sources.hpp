@@ -26,7 +26,7 @@ void add_beside(XmlProject& project, const std::vector<std::string>& roots,
 class FileSources final : public Sources {
  public:
   // The options must outlive it.
-  FileSources(const std::string& tree, const Options& options);
+  FileSources(const InputFile& tree, const Options& options);
 
   Result<InputFile> text(const std::string& name) override;
   NearestFile with_tree(std::string_view tree,

@@ -139,21 +139,21 @@ Result<InputFile> read_file(const std::string& name) {
     return refused(name, fmt::format("`{}` is a pipe or a device", name),
                    "name a file, or - for standard input");
   }
-  InputFile file{name, {}};
+  std::string text;
   std::vector<char> block(1 << 16);
   for (ssize_t count; (count = stream.read(block)) != 0;) {
     if (count < 0) {
       return refused(name, fmt::format("cannot read `{}`: {}", name,
                                        std::strerror(errno)));
     }
-    file.text.append(block.data(), static_cast<std::size_t>(count));
-    if (file.text.size() > kMostInputBytes) {
+    text.append(block.data(), static_cast<std::size_t>(count));
+    if (text.size() > kMostInputBytes) {
       return refused(name, fmt::format("`{}` is larger than 64 MiB, the most "
                                        "that is read of a file",
                                        name));
     }
   }
-  return {std::move(file), {}};
+  return {InputFile{name, std::move(text)}, {}};
 }
 
 std::optional<Diagnostic> refusal_outside(const std::vector<std::string>& roots,

@@ -51,7 +51,7 @@ std::optional<std::string> tree_named_by(const InputFile& properties,
 // begins with a bracket is the text itself, as settings have it.
 bool add_files(const std::vector<std::string>& names,
                const std::vector<std::string>& roots,
-               std::vector<BtcppFile>& to, std::vector<Diagnostic>& found) {
+               std::vector<InputFile>& to, std::vector<Diagnostic>& found) {
   for (const std::string& name : names) {
     if (name.starts_with('(')) {
       to.push_back({"enums", name});
@@ -94,7 +94,7 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
                    "says how long a tick takes"));
     return std::nullopt;
   }
-  FileSources sources(tree.name, options);
+  FileSources sources(tree, options);
   add_asked_files(tree, sources, reading, found);
   return reading;
 }
@@ -199,6 +199,14 @@ bool is_property_file(const std::string& name) {
 
 namespace {
 
+// A batch has read its trees and some of their rules.
+Result<InputFile> read_once(const Options& options, const std::string& name) {
+  const InputFile* known =
+      options.project == nullptr ? nullptr : options.project->read_file(name);
+  if (known != nullptr) return {*known, {}};
+  return read_file_in(options.roots, name);
+}
+
 // `inputs` has the files of rules, where there are any.
 std::optional<Inputs> with_tree(InputFile tree, Inputs inputs,
                                 const Options& options,
@@ -226,7 +234,7 @@ std::optional<Inputs> gather_inputs(const std::string& tree,
   std::vector<std::string> names = properties;
   if (is_property_file(tree)) names.insert(names.begin(), tree);
   for (const std::string& name : names) {
-    auto read = read_file_in(options.roots, name);
+    auto read = read_once(options, name);
     append(found, read.diagnostics);
     if (read.value) inputs.properties.push_back(std::move(*read.value));
   }
@@ -238,7 +246,7 @@ std::optional<Inputs> gather_inputs(const std::string& tree,
     tree_name = tree_named_by(inputs.properties[0], found);
     if (!tree_name) return std::nullopt;
   }
-  auto read = read_file_in(options.roots, *tree_name);
+  auto read = read_once(options, *tree_name);
   append(found, read.diagnostics);
   if (!read.value) return std::nullopt;
   return with_tree(std::move(*read.value), std::move(inputs), options, found);

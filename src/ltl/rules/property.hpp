@@ -13,6 +13,7 @@
 #include "ltl/formula/formula.hpp"
 #include "ltl/formula/pattern.hpp"
 #include "text/diagnostic.hpp"
+#include "text/input_file.hpp"
 #include "text/numbers.hpp"
 
 namespace btcheck {
@@ -172,6 +173,6 @@ bool begins_item(std::string_view text);
 // Reads the text of a property file; grammar in docs/properties.md. Every
 // error is reported, at most 20; a file with an error has no value.
 Result<PropertyFile> read_properties(std::string_view file_name,
-                                     std::string_view text);
+                                     const FileText& text);
 
 }  // namespace btcheck

@@ -410,9 +410,22 @@ bool begins_item(std::string_view text) {
   return PropertyParser(source, tokenize(source), file).at_item_end();
 }
 
+namespace {
+
+// The rules of a file without a name.
+struct ParsedRules : Result<PropertyFile> {
+  explicit ParsedRules(const std::string& text)
+      : Result(read_properties("", text, {})) {}
+};
+
+}  // namespace
+
 Result<PropertyFile> read_properties(std::string_view file_name,
-                                     std::string_view text) {
-  return read_properties(file_name, text, {});
+                                     const FileText& text) {
+  Result<PropertyFile> read = *text.parsed<ParsedRules>();
+  read.diagnostics = named(std::move(read.diagnostics), file_name);
+  if (read.value) read.value->file = file_name;
+  return read;
 }
 
 Result<PropertyFile> read_properties(std::string_view file_name,

@@ -106,9 +106,9 @@ bool is_type_of_version_4(const XmlElement& element) {
 // Whether version 3 refuses what is written in the trees, and version 4 does
 // not.
 bool speaks_version_4(const SourceFile& file) {
-  return std::ranges::any_of(file.elements, [&](const XmlElement& element) {
+  return std::ranges::any_of(file.elements(), [&](const XmlElement& element) {
     const bool is_entry =
-        file.elements[element.parent].name == "TreeNodesModel";
+        file.elements()[element.parent].name == "TreeNodesModel";
     return !is_entry &&
            (std::ranges::any_of(element.attributes, is_condition_name,
                                 &XmlAttribute::name) ||
@@ -137,7 +137,7 @@ class ModelReader {
   void read() {
     bool is_second = false;
     for (const std::size_t child : file_.root().children) {
-      const XmlElement& list = file_.elements[child];
+      const XmlElement& list = file_.elements()[child];
       if (list.name != "TreeNodesModel") continue;
       if (is_second) {
         return findings_.error(file_.place(list.span),
@@ -147,7 +147,7 @@ class ModelReader {
       }
       is_second = true;
       for (const std::size_t entry : list.children) {
-        add_model(file_.elements[entry]);
+        add_model(file_.elements()[entry]);
       }
     }
   }
@@ -174,7 +174,7 @@ class ModelReader {
     }
     BtcppModel model{*kind, *id, {}, {}, file_.place(element.span)};
     for (const std::size_t child : element.children) {
-      add_to(model, file_.elements[child]);
+      add_to(model, file_.elements()[child]);
     }
     const auto same =
         std::ranges::find_if(models_, [&](const BtcppModel& other) {
@@ -208,7 +208,7 @@ class ModelReader {
       add_port(model, *direction, element);
     } else if (element.name == "MetadataFields") {
       for (const std::size_t child : element.children) {
-        for (const auto& field : file_.elements[child].attributes) {
+        for (const auto& field : file_.elements()[child].attributes) {
           model.metadata.emplace_back(field.name, field.value);
         }
       }
@@ -257,16 +257,16 @@ class DocumentReader {
  public:
   explicit DocumentReader(const BtcppOptions& options) : options_(options) {}
 
-  Result<BtcppDocument> read(std::string_view name, std::string_view text,
+  Result<BtcppDocument> read(std::string_view name, const FileText& text,
                              const IncludeLoader& loader) {
     load_files(name, text, loader, sources_, findings_);
     if (loader) load_missing_trees(loader, sources_, findings_);
     tree_files_ = sources_.files.size();
-    for (const BtcppFile& file : options_.models) {
+    for (const InputFile& file : options_.models) {
       load_files(file.name, file.text, loader, sources_, findings_);
     }
     model_files_ = sources_.files.size();
-    for (const BtcppFile& file : options_.neighbours) load_neighbour(file);
+    for (const InputFile& file : options_.neighbours) load_neighbour(file);
     // With a part of the files, nothing true could be said of the others.
     if (!findings_.has_error()) read_files();
     Result<BtcppDocument> result;
@@ -301,7 +301,7 @@ class DocumentReader {
   }
 
   // Without what it includes.
-  void load_neighbour(const BtcppFile& file) {
+  void load_neighbour(const InputFile& file) {
     if (is_loaded(sources_, file.name)) return;
     const auto outline = outline_of(file.text);
     if (!outline || !outline->has_node_models) return;
@@ -317,7 +317,7 @@ class DocumentReader {
     if (model_files_ == sources_.files.size()) return;
     std::vector<BtcppModel> found;
     FileFindings ignored;
-    for (const BtcppFile& file : sources_.texts) {
+    for (const InputFile& file : sources_.texts) {
       ignored.add_file(file.name, file.text);
     }
     for (const SourceFile& file :
@@ -366,7 +366,6 @@ class DocumentReader {
     const XmlAttribute* format = root.attribute("BTCPP_format");
     const XmlAttribute* py_trees = root.attribute("py_trees");
     document_.read_for = options_.version;
-    document_.doubts_models = options_.doubts_models;
     if (!options_.is_guess) document_.version = options_.version;
     const bool seems_3 = format == nullptr ? !speaks_version_4(main_file())
                                            : format->value.starts_with('3');
@@ -413,7 +412,7 @@ class DocumentReader {
 
   void note_tree_ids(const SourceFile& file, TreeContext& context) {
     for (const std::size_t child : file.root().children) {
-      const XmlElement& element = file.elements[child];
+      const XmlElement& element = file.elements()[child];
       if (element.name == "BehaviorTree") {
         const std::string* id = element.value("ID");
         if (id != nullptr) context.tree_ids.insert(*id);
@@ -473,7 +472,7 @@ class DocumentReader {
     std::vector<std::string> ids;
     int count = 0;
     for (const std::size_t child : file.root().children) {
-      const XmlElement& element = file.elements[child];
+      const XmlElement& element = file.elements()[child];
       if (element.name != "BehaviorTree") continue;
       ++count;
       if (const auto* id = element.value("ID")) ids.push_back(*id);
@@ -482,14 +481,15 @@ class DocumentReader {
     if (main != nullptr ? std::ranges::count(ids, *main) > 0 : count == 1) {
       return;
     }
-    findings_.error(
-        file.place(file.root().span),
-        {"BT1611",
-         main != nullptr
-             ? fmt::format("no tree of the file is called `{}`", *main)
-             : "the file does not say which tree runs",
-         "BehaviorTree.CPP before 3.7 asks it of each file, included or not",
-         "name one by `<root main_tree_to_execute=\"…\">`"});
+    Finding finding{
+        "BT1611",
+        main != nullptr
+            ? fmt::format("no tree of the file is called `{}`", *main)
+            : "the file does not say which tree runs",
+        "BehaviorTree.CPP before 3.7 asks it of each file, included or not",
+        "name one by `<root main_tree_to_execute=\"…\">`"};
+    finding.refused_by = {releases::kEachFileHasMainTree};
+    findings_.error(file.place(file.root().span), std::move(finding));
   }
 
   void decide_main_tree() {
@@ -644,10 +644,18 @@ class DocumentReader {
 }  // namespace
 }  // namespace btcpp
 
-Result<BtcppDocument> read_btcpp(std::string_view name, std::string_view text,
+Result<BtcppDocument> read_btcpp(std::string_view name, const FileText& text,
                                  const IncludeLoader& loader,
                                  const BtcppOptions& options) {
   return btcpp::DocumentReader(options).read(name, text, loader);
+}
+
+void ask_for_files(std::string_view name, const FileText& text,
+                   const IncludeLoader& loader) {
+  btcpp::SourceFiles files;
+  btcpp::FileFindings findings;
+  btcpp::load_files(name, text, loader, files, findings);
+  btcpp::load_missing_trees(loader, files, findings);
 }
 
 }  // namespace btcheck

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "text/diagnostic.hpp"
+#include "text/input_file.hpp"
 
 namespace btcheck {
 
@@ -118,17 +119,11 @@ struct BtcppModel {
   const BtcppPort* port(std::string_view name) const;
 };
 
-struct BtcppFile {
-  std::string name;
-  std::string text;
-};
-
 struct BtcppDocument {
   BtcppRelease release = BtcppRelease::V4;
   std::optional<int> version;    // as BtcppOptions has it, if it is no guess
   std::optional<int> read_for;   // the same, guessed or not
-  bool doubts_models = false;    // as BtcppOptions has it
-  std::vector<BtcppFile> files;  // the one that was asked for is the first
+  std::vector<InputFile> files;  // the one that was asked for is the first
   // The tree to run unless the user names another; nothing when the files do
   // not say.
   std::optional<std::string> main_tree;
@@ -163,8 +158,8 @@ struct IncludeRequest {
 // their answers are equal.
 struct IncludedFile {
   std::string name;
-  std::optional<std::string> text;  // nothing when it cannot be read
-  std::string reason;               // why, "no such file"
+  std::optional<FileText> text;  // nothing when it cannot be read
+  std::string reason;            // why, "no such file"
   // A file that has the tree as well, and is as near.
   std::string other = {};
 };
@@ -182,13 +177,10 @@ struct BtcppOptions {
   bool is_guess = false;
   // Files of which only <TreeNodesModel> is read. A model in the files of the
   // tree replaces one of these.
-  std::vector<BtcppFile> models;
+  std::vector<InputFile> models;
   // Files whose models count where nothing else has the type: of them nothing
   // is said.
-  std::vector<BtcppFile> neighbours = {};
-  // An entry with two types, one of which only a model tells, is a warning: the
-  // engine knows those of the program, and reads no model.
-  bool doubts_models = false;
+  std::vector<InputFile> neighbours = {};
   // Patterns of names and types of leaves that are described elsewhere.
   std::vector<std::string> described = {};
   // A value even where nodes have a wrong number of children or a wrong name,
@@ -198,8 +190,12 @@ struct BtcppOptions {
 
 // Reads a file and all it includes. Without a value, at least one of the
 // diagnostics is an error.
-Result<BtcppDocument> read_btcpp(std::string_view name, std::string_view text,
+Result<BtcppDocument> read_btcpp(std::string_view name, const FileText& text,
                                  const IncludeLoader& loader,
                                  const BtcppOptions& options = {});
+
+// Asks the loader for all that `read_btcpp` would ask it for.
+void ask_for_files(std::string_view name, const FileText& text,
+                   const IncludeLoader& loader);
 
 }  // namespace btcheck

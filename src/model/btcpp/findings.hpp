@@ -25,8 +25,8 @@ class FileFindings {
  public:
   FileFindings() = default;
   // The files must outlive this.
-  explicit FileFindings(const std::vector<BtcppFile>& files) {
-    for (const BtcppFile& file : files) add_file(file.name, file.text);
+  explicit FileFindings(const std::vector<InputFile>& files) {
+    for (const InputFile& file : files) add_file(file.name, file.text);
   }
   FileFindings(const FileFindings&) = delete;
   FileFindings& operator=(const FileFindings&) = delete;
@@ -52,7 +52,7 @@ class FileFindings {
   // them; else a note, the first of its code.
   void refused(const BtcppPlace& place, std::optional<int> release,
                Finding finding) {
-    if (release && finding.refused_by->has(*release)) {
+    if (release && is_among(*release, finding.refused_by)) {
       error(place, std::move(finding));
     } else if (told_.insert(std::string(finding.code)).second) {
       note(place, std::move(finding));

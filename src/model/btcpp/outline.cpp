@@ -12,28 +12,29 @@ bool XmlOutline::has(std::string_view tree) const {
   return std::ranges::find(trees, tree) != trees.end();
 }
 
-std::optional<XmlOutline> outline_of(std::string_view text) {
+std::optional<XmlOutline> outline_of(const FileText& file) {
   // Most XML of a robot is something else.
+  const std::string& text = file.text();
   if (text.find("<root") == std::string_view::npos) return std::nullopt;
-  const SourceText source("", text);
-  if (source.refuse_binary()) return std::nullopt;
-  const auto elements = btcpp::parse_xml(source);
+  if (SourceText("", text).refuse_binary()) return std::nullopt;
+  const auto parsed = file.parsed<btcpp::ParsedXml>();
+  const auto& elements = parsed->value;
   XmlOutline outline;
-  if (!elements.value) {
+  if (!elements) {
     if (text.find("<BehaviorTree") == std::string_view::npos) {
       return std::nullopt;
     }
     outline.trees.emplace_back();
     return outline;
   }
-  if (elements.value->front().name != "root") return std::nullopt;
-  const btcpp::XmlElement& root = elements.value->front();
+  if (elements->front().name != "root") return std::nullopt;
+  const btcpp::XmlElement& root = elements->front();
   if (const auto* main = root.value("main_tree_to_execute")) {
     outline.main = *main;
   }
-  std::vector<bool> is_in_tree(elements.value->size(), false);
-  for (std::size_t i = 1; i < elements.value->size(); ++i) {
-    const btcpp::XmlElement& element = (*elements.value)[i];
+  std::vector<bool> is_in_tree(elements->size(), false);
+  for (std::size_t i = 1; i < elements->size(); ++i) {
+    const btcpp::XmlElement& element = (*elements)[i];
     if (element.parent == 0) {
       is_in_tree[i] = element.name == "BehaviorTree";
       outline.has_models |= element.name == "TreeNodesModel";
@@ -43,7 +44,7 @@ std::optional<XmlOutline> outline_of(std::string_view text) {
       }
       continue;
     }
-    if ((*elements.value)[element.parent].name == "TreeNodesModel") {
+    if ((*elements)[element.parent].name == "TreeNodesModel") {
       outline.has_node_models |= element.name != "SubTree";
     }
     is_in_tree[i] = is_in_tree[element.parent];

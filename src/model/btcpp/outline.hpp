@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "text/input_file.hpp"
+
 namespace btcheck {
 
 struct XmlOutline {
@@ -27,6 +29,6 @@ struct XmlOutline {
 // Nothing for what is no file of BehaviorTree.CPP: another root than <root>, or
 // neither trees, models nor includes in it. XML with a fault in it has a tree
 // without an ID when it has the word for one.
-std::optional<XmlOutline> outline_of(std::string_view text);
+std::optional<XmlOutline> outline_of(const FileText& text);
 
 }  // namespace btcheck

@@ -21,7 +21,7 @@ constexpr std::size_t kMostBytes = 16 << 20;
 bool has_tree(const SourceFiles& files, std::string_view id) {
   return std::ranges::any_of(files.files, [&](const SourceFile& file) {
     return std::ranges::any_of(file.root().children, [&](std::size_t child) {
-      const XmlElement& element = file.elements[child];
+      const XmlElement& element = file.elements()[child];
       const std::string* own = element.value("ID");
       return element.name == "BehaviorTree" && own != nullptr && *own == id;
     });
@@ -35,9 +35,9 @@ struct NamedTree {
 
 std::vector<NamedTree> named_trees(const SourceFile& file) {
   std::vector<NamedTree> named;
-  for (const XmlElement& element : file.elements) {
+  for (const XmlElement& element : file.elements()) {
     if (!element.name.starts_with("SubTree")) continue;
-    if (file.elements[element.parent].name == "TreeNodesModel") continue;
+    if (file.elements()[element.parent].name == "TreeNodesModel") continue;
     const XmlAttribute* id = element.attribute("ID");
     if (id != nullptr) named.push_back({id->value, file.place(id->value_span)});
   }
@@ -50,8 +50,8 @@ class Loading {
           FileFindings& findings)
       : loader_(loader), files_(files), findings_(findings) {}
 
-  void load(std::string_view name, std::string_view text) {
-    open_file(std::string(name), std::string(text));
+  void load(std::string_view name, const FileText& text) {
+    open_file(std::string(name), text);
     while (!open_.empty()) {
       Open& last = open_.back();
       const auto& children = last.file.root().children;
@@ -60,11 +60,9 @@ class Loading {
         open_.pop_back();
         continue;
       }
-      const std::size_t child = children[last.next_child++];
-      if (last.file.elements[child].name == "include") {
-        // A copy: opening a file moves those that are open.
-        include(XmlElement(last.file.elements[child]), last.file.number);
-      }
+      const XmlElement& child =
+          last.file.elements()[children[last.next_child++]];
+      if (child.name == "include") include(child, last.file.number);
     }
   }
 
@@ -74,10 +72,10 @@ class Loading {
     std::size_t next_child = 0;
   };
 
-  void open_file(std::string name, std::string text) {
+  void open_file(std::string name, FileText text) {
     const auto number = static_cast<std::uint32_t>(files_.texts.size());
     files_.texts.push_back({std::move(name), std::move(text)});
-    const BtcppFile& file = files_.texts.back();
+    const InputFile& file = files_.texts.back();
     findings_.add_file(file.name, file.text);
     const SourceText& source = findings_.source(number);
     if (file.text.size() > kMostBytes) {
@@ -86,10 +84,10 @@ class Loading {
                               "split it, and include the parts"});
     }
     if (auto binary = source.refuse_binary()) return findings_.add({*binary});
-    auto elements = parse_xml(source);
-    findings_.add(std::move(elements.diagnostics));
-    if (!elements.value) return;
-    const XmlElement& root = elements.value->front();
+    auto parsed = file.text.parsed<ParsedXml>();
+    findings_.add(named(parsed->diagnostics, file.name));
+    if (!parsed->value) return;
+    const XmlElement& root = parsed->value->front();
     if (root.name != "root") {
       return findings_.error(
           {number, root.span},
@@ -97,7 +95,7 @@ class Loading {
            "`<root>` is expected",
            "put the trees into `<root BTCPP_format=\"4\">` and `</root>`"});
     }
-    open_.push_back({{number, std::move(*elements.value)}});
+    open_.push_back({{number, std::move(parsed)}});
   }
 
   void include(const XmlElement& element, std::uint32_t from) {
@@ -189,11 +187,11 @@ class FoundBeside {
 }  // namespace
 
 bool is_loaded(const SourceFiles& files, std::string_view name) {
-  return std::ranges::find(files.texts, name, &BtcppFile::name) !=
+  return std::ranges::find(files.texts, name, &InputFile::name) !=
          files.texts.end();
 }
 
-void load_files(std::string_view name, std::string_view text,
+void load_files(std::string_view name, const FileText& text,
                 const IncludeLoader& loader, SourceFiles& files,
                 FileFindings& findings) {
   Loading(loader, files, findings).load(name, text);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -18,22 +19,23 @@
 namespace btcheck::btcpp {
 
 struct SourceFile {
-  std::uint32_t number = 0;  // index into BtcppDocument::files
-  std::vector<XmlElement> elements;
+  std::uint32_t number = 0;                 // index into BtcppDocument::files
+  std::shared_ptr<const ParsedXml> parsed;  // has a value
 
-  const XmlElement& root() const { return elements.front(); }
+  const std::vector<XmlElement>& elements() const { return *parsed->value; }
+  const XmlElement& root() const { return elements().front(); }
   BtcppPlace place(SourceSpan span) const { return {number, span}; }
 };
 
 struct SourceFiles {
-  std::deque<BtcppFile> texts;    // never moved: findings point at them
+  std::deque<InputFile> texts;    // never moved: findings point at them
   std::vector<SourceFile> files;  // an included file before the one including
 };
 
 bool is_loaded(const SourceFiles& files, std::string_view name);
 
 // Loads each file once. A file that cannot be found or read is an error.
-void load_files(std::string_view name, std::string_view text,
+void load_files(std::string_view name, const FileText& text,
                 const IncludeLoader& loader, SourceFiles& files,
                 FileFindings& findings);
 

@@ -77,7 +77,7 @@ class TreeReader {
       : file_(file), context_(context), findings_(findings) {}
 
   BtcppTree read(std::size_t at) {
-    const XmlElement& element = file_.elements[at];
+    const XmlElement& element = file_.elements()[at];
     BtcppTree tree;
     tree.place = file_.place(element.span);
     tree.id = id_of_tree(element);
@@ -123,7 +123,7 @@ class TreeReader {
                  "only a tree that is alone in its file can do without; write "
                  "`<BehaviorTree ID=\"MainTree\">`",
                  {},
-                 releases::kForbidsNamesOfTypes});
+                 {releases::kForbidsNamesOfTypes}});
       }
       return fmt::format("BehaviorTree_{}", context_.unnamed++);
     }
@@ -143,7 +143,7 @@ class TreeReader {
                          *flaw + " from BehaviorTree.CPP 4.8.4 on",
                          "letters, digits and `_` are always allowed",
                          {},
-                         releases::kForbidsNames});
+                         {releases::kForbidsNames}});
     }
   }
 
@@ -159,7 +159,7 @@ class TreeReader {
              "a tree cannot have it as well",
              "give the tree another ID",
              {},
-             releases::kForbidsNamesOfTypes});
+             {releases::kForbidsNamesOfTypes}});
   }
 
   // The elements below one stand together, in the order of their tags. Those
@@ -167,8 +167,8 @@ class TreeReader {
   void add_nodes(std::size_t first, BtcppTree& tree) {
     std::vector<std::size_t> open;  // elements, from the root to the last one
     std::size_t leaf_depth = kDeepest + 1;
-    for (std::size_t at = first; at < file_.elements.size(); ++at) {
-      const XmlElement& element = file_.elements[at];
+    for (std::size_t at = first; at < file_.elements().size(); ++at) {
+      const XmlElement& element = file_.elements()[at];
       while (!open.empty() && open.back() != element.parent) open.pop_back();
       if (open.empty() && at != first) return;
       if (open.size() > kDeepest) {
@@ -382,7 +382,7 @@ class TreeReader {
       finding.message =
           fmt::format("the tree `{}` stands here as a tag", element.name);
       finding.label = "BehaviorTree.CPP 3.8 and later do not know this node";
-      finding.refused_by = releases::kForbidsTreeTags;
+      finding.refused_by = {releases::kForbidsTreeTags};
       refused(element.span, std::move(finding));
     }
     return true;
@@ -500,7 +500,7 @@ class TreeReader {
       finding.label = "they are never ticked";
       findings_.warning(file_.place(element.span), std::move(finding));
     } else {
-      finding.refused_by = releases::kForbidsChildrenOfLeaves;
+      finding.refused_by = {releases::kForbidsChildrenOfLeaves};
       refused(element.span, std::move(finding));
     }
   }
@@ -512,7 +512,7 @@ class TreeReader {
     if (!is_4() || node.id != "ReactiveSequence") return;
     int asynchronous = 0;
     for (const std::size_t number : element.children) {
-      const XmlElement& child = file_.elements[number];
+      const XmlElement& child = file_.elements()[number];
       if (child.name != "SubTree" && kind_named(child.name)) {
         findings_.refused(
             file_.place(child.span), context_.document.version,
@@ -521,7 +521,7 @@ class TreeReader {
              "BehaviorTree.CPP 4.7 to 4.10 refuse the explicit form here",
              "write the node type as the tag",
              {},
-             releases::kLooksAtReactive});
+             {releases::kLooksAtReactive}});
       }
       if (child.name == "AsyncSequence" && ++asynchronous == 2) {
         findings_.refused(
@@ -532,7 +532,7 @@ class TreeReader {
              "4.7 on",
              "use a Parallel, or put both into one child",
              {},
-             releases::kLooksAtReactive});
+             {releases::kLooksAtReactive}});
       }
     }
   }
@@ -567,7 +567,7 @@ void add_tree(BtcppTree tree, TreeContext& context, FileFindings& findings) {
 void read_trees(const SourceFile& file, TreeContext& context,
                 FileFindings& findings) {
   for (const std::size_t child : file.root().children) {
-    if (file.elements[child].name != "BehaviorTree") continue;
+    if (file.elements()[child].name != "BehaviorTree") continue;
     BtcppTree tree = TreeReader(file, context, findings).read(child);
     add_tree(std::move(tree), context, findings);
   }

@@ -109,7 +109,7 @@ void note_unread_attributes(const SourceFile& file,
   };
   add_all(file.root(), nullptr);
   for (const std::size_t child : file.root().children) {
-    const XmlElement& element = file.elements[child];
+    const XmlElement& element = file.elements()[child];
     if (element.name != "BehaviorTree") continue;
     const std::string* id = element.value("ID");
     add_all(element, id == nullptr ? nullptr : document.tree(*id));

@@ -239,6 +239,8 @@ std::string XmlElement::value_or_empty(std::string_view wanted) const {
   return found == nullptr ? std::string() : *found;
 }
 
+namespace {
+
 Result<std::vector<XmlElement>> parse_xml(const SourceText& source) {
   const auto refuse = [&](SourceSpan span, std::string_view code,
                           std::string message, std::string label,
@@ -290,5 +292,10 @@ Result<std::vector<XmlElement>> parse_xml(const SourceText& source) {
   }
   return result;
 }
+
+}  // namespace
+
+ParsedXml::ParsedXml(const std::string& text)
+    : Result(parse_xml(SourceText("", text))) {}
 
 }  // namespace btcheck::btcpp

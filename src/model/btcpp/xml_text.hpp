@@ -37,8 +37,10 @@ struct XmlElement {
   const XmlAttribute* attribute(std::string_view name) const;
 };
 
-// The elements in the order of their start tags; the first is the root. Without
-// a value there is one error.
-Result<std::vector<XmlElement>> parse_xml(const SourceText& source);
+// The elements of a text in the order of their start tags; the first is the
+// root. Without a value there is one error, of a file without a name.
+struct ParsedXml : Result<std::vector<XmlElement>> {
+  explicit ParsedXml(const std::string& text);
+};
 
 }  // namespace btcheck::btcpp

@@ -300,8 +300,8 @@ std::string Forms::written(FormId id) const {
   return text;
 }
 
-Forms read_forms(std::string_view text, Findings& findings) {
-  return Nesting(Lexer(text, findings).run(), findings).run();
-}
+ParsedForms::ParsedForms(const std::string& text)
+    : source("", text),
+      forms(Nesting(Lexer(source.text(), findings).run(), findings).run()) {}
 
 }  // namespace btcheck::btf

@@ -68,10 +68,16 @@ struct Forms {
   std::string written(FormId id) const;
 };
 
-// Reads the forms of a text: at most 500 levels and a million words. What is
+// The forms of a text: at most 500 levels and a million words. What is
 // wrong with a word or a parenthesis is reported, and what follows is read on.
 // A list that encloses the whole file is opened: its items are the top level.
-Forms read_forms(std::string_view text, Findings& findings);
+struct ParsedForms {
+  explicit ParsedForms(const std::string& text);
+
+  SourceText source;  // of a file without a name
+  Findings findings{source};
+  Forms forms;
+};
 
 // The forms of a file, and where to say what is wrong with them.
 struct Reading {

@@ -245,17 +245,19 @@ class FileReader {
 }  // namespace
 }  // namespace btf
 
-Result<BehaviorTree> read_btf(std::string_view file_name, std::string_view text,
+Result<BehaviorTree> read_btf(std::string_view file_name, const FileText& text,
                               int tick_ms) {
   const SourceText source(file_name, text);
   if (auto refusal = source.refuse_binary()) return {{}, {*refusal}};
-  Findings findings(source);
   if (text.size() > btf::kMostBytes) {
-    findings.error(SourceSpan{}, {"BT1002", "the file is larger than 16 MiB",
-                                  "", "split it"});
-    return {{}, findings.take()};
+    return {
+        {},
+        {source.diagnostic(Severity::Error, "BT1002", {},
+                           "the file is larger than 16 MiB", "", "split it")}};
   }
-  const btf::Forms forms = btf::read_forms(text, findings);
+  const auto parsed = text.parsed<btf::ParsedForms>();
+  const btf::Forms& forms = parsed->forms;
+  Findings findings(source, parsed->findings);
   if (!forms.is_complete) return {{}, findings.take()};
   const btf::Reading reading{forms, findings, {}, tick_ms};
   BehaviorTree tree = btf::FileReader(reading).read();

@@ -25,7 +25,8 @@
 namespace btcheck::btf {
 namespace {
 
-constexpr std::size_t kMostNodes = 20'000;
+// As many as an XML tree may have.
+constexpr std::size_t kMostNodes = 65'535;
 constexpr std::size_t kMostWords = 2'000'000;
 
 NodeId node_id(std::size_t number) {

@@ -60,7 +60,7 @@ class TreeForms {
     BehaviorTree tree;
     std::vector<const NodeDraft*> drafts;
   };
-  // At most 20,000 nodes; more are an error.
+  // At most 65,535 nodes; more are an error.
   Expansion expand(const std::vector<TreeNumber>& roots) const;
 
  private:

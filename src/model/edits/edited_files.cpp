@@ -206,8 +206,8 @@ class EditPen {
   std::optional<NodeText> find(const SourcePlace& place) {
     const auto at = begin_of(place);
     if (!at) return std::nullopt;
-    const SourceText source(files_.files_[file_].name, text());
-    return is_xml() ? xml_node_at(source, *at) : btf_node_at(source, *at);
+    const FileText& file = files_.files_[file_].text;
+    return is_xml() ? xml_node_at(file, *at) : btf_node_at(file, *at);
   }
 
   void replace(TextStretch part, const std::string& with) {
@@ -288,7 +288,7 @@ class EditPen {
   std::size_t file_ = 0;
 };
 
-EditedFiles::EditedFiles(std::vector<EditedFile> files)
+EditedFiles::EditedFiles(std::vector<InputFile> files)
     : originals_(files), files_(std::move(files)) {}
 
 bool EditedFiles::apply(const Repair& repair) {
@@ -308,7 +308,7 @@ std::optional<SourcePlace> EditedFiles::moved(const SourcePlace& before) const {
 
 std::optional<std::size_t> EditedFiles::file_named(
     std::string_view name) const {
-  const auto found = std::ranges::find(files_, name, &EditedFile::name);
+  const auto found = std::ranges::find(files_, name, &InputFile::name);
   if (found == files_.end()) return std::nullopt;
   return static_cast<std::size_t>(found - files_.begin());
 }
@@ -329,7 +329,9 @@ std::optional<std::size_t> EditedFiles::offset(std::size_t file,
 
 void EditedFiles::replace(std::size_t file, TextStretch part,
                           const std::string& text) {
-  files_[file].text.replace(part.begin, part.size(), text);
+  std::string edited = files_[file].text;
+  edited.replace(part.begin, part.size(), text);
+  files_[file].text = std::move(edited);
   changes_.push_back({file, part, text.size()});
 }
 

@@ -10,25 +10,21 @@
 #include <vector>
 
 #include "text/diagnostic.hpp"
+#include "text/input_file.hpp"
 #include "text/repair.hpp"
 
 namespace btcheck {
 
-struct EditedFile {
-  std::string name;
-  std::string text;
-};
-
 class EditedFiles {
  public:
-  explicit EditedFiles(std::vector<EditedFile> files);
+  explicit EditedFiles(std::vector<InputFile> files);
 
   // Makes all edits. False where one does not fit: there is no such node, or it
   // has no such attribute.
   bool apply(const Repair& repair);
 
-  const std::vector<EditedFile>& originals() const { return originals_; }
-  const std::vector<EditedFile>& files() const { return files_; }
+  const std::vector<InputFile>& originals() const { return originals_; }
+  const std::vector<InputFile>& files() const { return files_; }
 
   // Where what stood there before all edits stands now.
   std::optional<SourcePlace> moved(const SourcePlace& before) const;
@@ -49,8 +45,8 @@ class EditedFiles {
                                     const SourcePlace& place) const;
   void replace(std::size_t file, TextStretch part, const std::string& text);
 
-  std::vector<EditedFile> originals_;
-  std::vector<EditedFile> files_;
+  std::vector<InputFile> originals_;
+  std::vector<InputFile> files_;
   std::vector<Change> changes_;
 };
 

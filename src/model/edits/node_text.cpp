@@ -99,20 +99,20 @@ const AttributeText* NodeText::attribute(std::string_view name) const {
   return found == attributes.end() ? nullptr : &*found;
 }
 
-std::optional<NodeText> xml_node_at(const SourceText& file, std::size_t at) {
-  const auto read = btcpp::parse_xml(file);
-  if (!read.value) return std::nullopt;
-  const auto found = std::ranges::find_if(*read.value, [&](const auto& each) {
-    return each.start_tag.begin + 1 == at;
-  });
-  if (found == read.value->end()) return std::nullopt;
+std::optional<NodeText> xml_node_at(const FileText& file, std::size_t at) {
+  const auto parsed = file.parsed<btcpp::ParsedXml>();
+  if (!parsed->value) return std::nullopt;
+  const auto found = std::ranges::find_if(
+      *parsed->value,
+      [&](const auto& each) { return each.start_tag.begin + 1 == at; });
+  if (found == parsed->value->end()) return std::nullopt;
   return text_of(*found, file.text());
 }
 
-std::optional<NodeText> btf_node_at(const SourceText& file, std::size_t at) {
-  Findings findings(file);
-  const btf::Forms forms = btf::read_forms(file.text(), findings);
-  if (findings.has_error()) return std::nullopt;
+std::optional<NodeText> btf_node_at(const FileText& file, std::size_t at) {
+  const auto parsed = file.parsed<btf::ParsedForms>();
+  const btf::Forms& forms = parsed->forms;
+  if (parsed->findings.has_error()) return std::nullopt;
   for (const btf::Form& form : forms.all) {
     if (!form.is_list() || form.items.empty()) continue;
     const btf::Form& head = forms[form.items.front()];

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "text/diagnostic.hpp"
+#include "text/input_file.hpp"
 
 namespace btcheck {
 
@@ -32,7 +33,7 @@ struct NodeText {
 
 // The node whose type begins at the byte; nothing where there is none, or the
 // file cannot be read.
-std::optional<NodeText> xml_node_at(const SourceText& file, std::size_t at);
-std::optional<NodeText> btf_node_at(const SourceText& file, std::size_t at);
+std::optional<NodeText> xml_node_at(const FileText& file, std::size_t at);
+std::optional<NodeText> btf_node_at(const FileText& file, std::size_t at);
 
 }  // namespace btcheck

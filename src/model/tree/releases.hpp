@@ -6,7 +6,9 @@
 // what it means for a tree.
 #pragma once
 
+#include <array>
 #include <string_view>
+#include <vector>
 
 #include "text/diagnostic.hpp"
 
@@ -14,6 +16,38 @@ namespace btcheck::releases {
 
 inline constexpr int kFirst = 1;        // any; 0 is none
 inline constexpr int kFirst4 = 40'000;  // no release of version 3
+
+// The last patch of each minor release, and those between which what is refused
+// has changed; the newest first.
+inline constexpr std::array kKnown = {41000, 40901, 40804, 40803, 40703, 40602,
+                                      40502, 40403, 40308, 40201, 40101, 40002,
+                                      30808, 30700, 30601, 30506, 30501};
+
+// Those of the same version as `release` that are so, as `is` says of each of
+// kKnown; empty where all are.
+template <class Is>
+std::vector<Releases> those(int release, const Is& is) {
+  std::vector<Releases> found;
+  bool are_all = true;
+  int end = release < kFirst4 ? kFirst4 : kNoRelease;
+  for (std::size_t i = 0; i < kKnown.size(); ++i) {
+    if ((kKnown[i] < kFirst4) != (release < kFirst4)) continue;
+    const bool is_last =
+        i + 1 == kKnown.size() || kKnown[i + 1] / 10'000 != kKnown[i] / 10'000;
+    const int first = !is_last            ? kKnown[i + 1] + 1
+                      : release < kFirst4 ? kFirst
+                                          : kFirst4;
+    if (!is(kKnown[i])) {
+      are_all = false;
+    } else if (!found.empty() && found.back().first == end) {
+      found.back().first = first;
+    } else {
+      found.push_back({first, end});
+    }
+    end = first;
+  }
+  return are_all ? std::vector<Releases>() : found;
+}
 
 // --- Ticks: src/controls, src/decorators, src/tree_node.cpp ------------------
 

@@ -18,6 +18,7 @@
 #include "model/tree/expression.hpp"
 #include "model/tree/scale.hpp"
 #include "text/diagnostic.hpp"
+#include "text/input_file.hpp"
 
 namespace btcheck {
 
@@ -543,7 +544,7 @@ bool moves_freely(const BehaviorTree& tree, StateVariableId variable);
 // Reads the text of a .btf file, a tick of which takes `tick_ms`. Every error
 // is reported, at most 20; nothing is thrown. Source: the paper's listings;
 // grammar in docs/btf.md.
-Result<BehaviorTree> read_btf(std::string_view file_name, std::string_view text,
+Result<BehaviorTree> read_btf(std::string_view file_name, const FileText& text,
                               int tick_ms = 100);
 
 }  // namespace btcheck

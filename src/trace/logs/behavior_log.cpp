@@ -114,8 +114,7 @@ constexpr std::size_t kBtlogRecord = 9;
 class XmlTree {
  public:
   void read(std::string_view xml, BehaviorLog& log) {
-    const SourceText source("", xml);
-    const auto parsed = btcpp::parse_xml(source);
+    const btcpp::ParsedXml parsed{std::string(xml)};
     if (!parsed.value) {
       const Diagnostic& why = parsed.diagnostics.front();
       throw damaged(why.span.line, why.label);

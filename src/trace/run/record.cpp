@@ -291,8 +291,8 @@ std::string step_text(const Network& network, const RunStep& step) {
 const std::string* text_of(const TreeReading& reading,
                            const std::string& file) {
   for (const auto* files : {&reading.included, &reading.neighbours}) {
-    const auto found = std::ranges::find(*files, file, &BtcppFile::name);
-    if (found != files->end()) return &found->text;
+    const auto found = std::ranges::find(*files, file, &InputFile::name);
+    if (found != files->end()) return &found->text.text();
   }
   return nullptr;
 }

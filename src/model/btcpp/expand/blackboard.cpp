@@ -26,21 +26,30 @@
 namespace btcheck::btcpp {
 namespace {
 
-// Of each entry the type of the port that is created first.
+// Of each entry the type of the port that is created first, as a release has
+// it; and what it refuses of the others.
 class EntryTypes {
  public:
-  EntryTypes(const BtcppExpansion& expansion, FileFindings& findings)
-      : expansion_(expansion), findings_(findings) {}
+  // A port whose type is not that of its entry.
+  struct Conflict {
+    const BtcppAttribute* port = nullptr;
+    bool is_told_by_model = false;  // one of the types is
+    Finding finding;
+  };
 
-  void check() {
+  EntryTypes(const BtcppExpansion& expansion, int engine)
+      : expansion_(expansion), engine_(engine) {}
+
+  std::vector<Conflict> conflicts() {
     for (const BtcppInstance& instance : expansion_.nodes) {
       ask_budget();
       if (instance.node->kind == BtcppKind::SubTree) {
-        if (!passes_texts(expansion_)) take_literals(instance);
+        if (!releases::kPassesTexts.has(engine_)) take_literals(instance);
         continue;
       }
       for (const auto& port : instance.node->ports) check(instance, port);
     }
+    return std::move(conflicts_);
   }
 
  private:
@@ -75,7 +84,7 @@ class EntryTypes {
 
   // The first port that names an entry decides its type, or that it has none.
   void check(const BtcppInstance& instance, const BtcppAttribute& port) {
-    const auto key = remapped_key(document().engine(), port.name, port.value);
+    const auto key = remapped_key(engine_, port.name, port.value);
     if (!key) return;
     const auto facts = facts_of(document(), *instance.node, port.name);
     PortType type = facts.value_or(PortFacts{}).type;
@@ -84,8 +93,7 @@ class EntryTypes {
         types_.try_emplace(entry_of(expansion_, instance.subtree, *key),
                            Type{type, port.place, is_of_model(*instance.node)});
     const Type& before = found->second;
-    const bool keeps_texts =
-        releases::kTextsAreNoOtherType.has(document().engine());
+    const bool keeps_texts = releases::kTextsAreNoOtherType.has(engine_);
     const bool is_free = before.type == PortType::Any ||
                          (before.type == PortType::String && !keeps_texts) ||
                          type == PortType::Any;
@@ -108,14 +116,13 @@ class EntryTypes {
         fmt::format("{} here", port_type_name(type)),
         fmt::format("it is {} in line {}; use two entries",
                     port_type_name(before.type), before.place.span.line)};
-    if (!document().doubts_models || !is_told_by_model) {
-      return findings_.error(port.place, std::move(finding));
+    if (is_told_by_model) {
+      finding.help += fmt::format(
+          ", or correct the model: BehaviorTree.CPP {} if the port has this "
+          "type in C++",
+          is_free ? "throws when it is written" : "refuses the tree");
     }
-    finding.help += fmt::format(
-        ", or correct the model: BehaviorTree.CPP {} if the port has this type "
-        "in C++",
-        is_free ? "throws when it is written" : "refuses the tree");
-    findings_.warning(port.place, std::move(finding));
+    conflicts_.push_back({&port, is_told_by_model, std::move(finding)});
   }
 
   bool is_of_model(const BtcppNode& node) const {
@@ -124,9 +131,35 @@ class EntryTypes {
   }
 
   const BtcppExpansion& expansion_;
-  FileFindings& findings_;
+  int engine_;
   std::map<EntryName, Type> types_;
+  std::vector<Conflict> conflicts_;
 };
+
+// The engine knows the types of the program, and reads no model: what only a
+// model says is a warning.
+void check_types(const BtcppExpansion& expansion, FileFindings& findings) {
+  const int engine = expansion.document->engine();
+  auto conflicts = EntryTypes(expansion, engine).conflicts();
+  if (conflicts.empty()) return;
+  std::map<int, std::set<const BtcppAttribute*>> refused;  // by release
+  for (const int release : releases::kKnown) {
+    for (const auto& each : EntryTypes(expansion, release).conflicts()) {
+      refused[release].insert(each.port);
+    }
+  }
+  for (auto& [port, is_told_by_model, finding] : conflicts) {
+    const auto* const of = port;
+    finding.refused_by = releases::those(
+        engine, [&](int release) { return refused[release].contains(of); });
+    finding.is_doubtful = is_told_by_model;
+    if (is_told_by_model) {
+      findings.warning(port->place, std::move(finding));
+    } else {
+      findings.error(port->place, std::move(finding));
+    }
+  }
+}
 
 class Blackboard {
  public:
@@ -576,7 +609,7 @@ class Blackboard {
 }  // namespace
 
 void check_blackboard(const BtcppExpansion& expansion, FileFindings& findings) {
-  EntryTypes(expansion, findings).check();
+  check_types(expansion, findings);
   Blackboard(expansion, findings).check();
 }
 

@@ -353,7 +353,7 @@ class Expander {
          "BehaviorTree.CPP tells subtrees apart by this name",
          "give it another `name`, or none",
          {},
-         releases::kForbidsSamePaths});
+         {releases::kForbidsSamePaths}});
   }
 
   void report_too_large(const Pending& at) {

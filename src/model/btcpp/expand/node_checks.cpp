@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "model/btcpp/attributes.hpp"
+#include "model/btcpp/enumerators.hpp"
 #include "model/btcpp/expand/checks.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/script/script.hpp"
@@ -213,7 +214,13 @@ class NodeCheck {
                     did_you_mean(port.name, *names,
                                  names->empty() ? "it has none; delete it"
                                                 : "it has " + listed(*names))};
-    if (builtin_type(document_.release, node_.id) != nullptr) {
+    if (const auto* type = builtin_type(document_.release, node_.id)) {
+      finding.refused_by =
+          releases::those(document_.engine(), [&](int release) {
+            return std::ranges::none_of(type->ports, [&](const PortRow& row) {
+              return row.name == port.name && row.in.has(release);
+            });
+          });
       return findings_.error(port.name_place, std::move(finding));
     }
     const auto near = closest_match(port.name, *names);
@@ -240,13 +247,16 @@ class NodeCheck {
   void check_script(const BtcppAttribute& script) {
     const ScriptSyntax syntax = parse_script(script.value, document_);
     if (syntax.flaw.empty()) return;
-    findings_.error(
-        place_in(script, syntax.flaw_at, 1),
-        {"BT1615",
-         fmt::format("the script of `{}` cannot be read", script.name),
-         syntax.flaw,
-         "scripts are expressions and assignments, `x := 1; y = x "
-         "+ 1`; strings stand in single quotes"});
+    Finding finding{
+        "BT1615", fmt::format("the script of `{}` cannot be read", script.name),
+        syntax.flaw,
+        "scripts are expressions and assignments, `x := 1; y = x "
+        "+ 1`; strings stand in single quotes"};
+    finding.refused_by = releases::those(document_.engine(), [&](int release) {
+      return !parse_script(script.value, release, enumerators_of(document_))
+                  .flaw.empty();
+    });
+    findings_.error(place_in(script, syntax.flaw_at, 1), std::move(finding));
   }
 
   void check_mandatory_ports() {

@@ -99,7 +99,7 @@ class Conversion {
 
   Result<BehaviorTree> run() {
     Result<BehaviorTree> result;
-    const std::vector<BtcppFile>& files = expansion_.document->files;
+    const std::vector<InputFile>& files = expansion_.document->files;
     tree_.file = files.at(0).name;
     for (std::size_t f = 1; f < files.size(); ++f) {
       tree_.included.push_back(files[f].name);

@@ -67,7 +67,7 @@ struct DeclaredEnumerator {
 };
 
 struct LeafContracts {
-  std::vector<BtcppFile> files;
+  std::vector<InputFile> files;
   std::vector<LeafRule> rules;  // in the order of the files
   std::vector<DeclaredEntry> entries;
   std::vector<DeclaredEnumerator> enumerators;
