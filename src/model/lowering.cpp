@@ -4,14 +4,12 @@
 // automaton looks like stands in mapping/, one file per family of node types.
 #include "model/lowering.hpp"
 
-#include <cassert>
 #include <utility>
 
 #include "model/mapping/btcpp/builder.hpp"
 #include "model/mapping/paper/drawings.hpp"
 #include "model/mapping/py_trees/drawings.hpp"
 #include "model/tree/answers.hpp"
-#include "model/tree/node_types.hpp"
 #include "text/budget.hpp"
 
 namespace btcheck {
@@ -163,10 +161,20 @@ void drop_unused_locations(Automaton& automaton) {
   }
 }
 
-mapping::Draw drawing_for(Profile profile, NodeType type) {
-  if (profile == Profile::PyTrees) return mapping::py_trees_drawing_of(type);
-  return is_engine(profile) ? mapping::engine_drawing_of(type)
-                            : mapping::drawing_of(type);
+const mapping::Drawings& drawings_of(Profile profile) {
+  using namespace mapping;
+  static const Drawings kBtf(
+      In::Btf, {leaf_drawings(), control_drawings(), decorator_drawings()});
+  static const Drawings kBtcpp(
+      In::Btcpp,
+      {engine_leaf_drawings(), engine_sequence_drawings(),
+       engine_parallel_drawings(), branching_drawings(),
+       engine_decorator_drawings(), time_drawings(), nav2_drawings()});
+  static const Drawings kPyTrees(
+      In::PyTrees, {py_trees_leaf_drawings(), py_trees_composite_drawings(),
+                    py_trees_decorator_drawings()});
+  if (profile == Profile::PyTrees) return kPyTrees;
+  return is_engine(profile) ? kBtcpp : kBtf;
 }
 
 // Edge numbers, whose each variable is, and the domains of locations.
@@ -201,13 +209,14 @@ Network lower(const BehaviorTree& tree, TickSemantics ticks,
   network.ticks = ticks;
   mapping::Context context{tree, network, {}, samples};
   const std::vector<NodeId> in_post_order = post_order(tree);
+  const mapping::Drawings& drawings = drawings_of(tree.profile);
   add_state_variables(context);
   add_nodes(context, in_post_order);
   if (is_engine(tree.profile)) context.answers = possible_answers(tree);
   for (NodeId node : in_post_order) {
     ask_budget();
     mapping::NodeBuilder builder(context, node);
-    drawing_for(tree.profile, tree.node(node).type)(builder);
+    drawings.of(tree.node(node).type)(builder);
   }
   finish(network);
   return network;

@@ -12,7 +12,7 @@ namespace btcheck::node_table_test {
 namespace {
 
 TEST_CASE("what is ticked beside a running child is what the table says") {
-  for (const NodeTypeInfo& info : node_types()) {
+  for (const NodeTypeInfo& info : kNodeTypes) {
     if (info.max_children < 2) continue;
     CAPTURE(info.name);
     REQUIRE(kInXml.contains(info.type));
@@ -31,7 +31,7 @@ TEST_CASE("what is ticked beside a running child is what the table says") {
 }
 
 TEST_CASE("guards go stale under every type that resumes, and no other") {
-  for (const NodeTypeInfo& info : node_types()) {
+  for (const NodeTypeInfo& info : kNodeTypes) {
     if (info.max_children < 2 || kInXml.at(info.type).empty()) continue;
     CAPTURE(info.name);
     const CheckResult result =
@@ -46,7 +46,7 @@ TEST_CASE("under a type that resumes no two children run at a time") {
   const std::string rule =
       "prove never A.status == running and B.status == running\n"
       "prove never B.running\n";
-  for (const NodeTypeInfo& info : node_types()) {
+  for (const NodeTypeInfo& info : kNodeTypes) {
     if (info.max_children < 2 || info.beside != Beside::None) continue;
     CAPTURE(info.name);
     const std::string& written = kInXml.at(info.type);

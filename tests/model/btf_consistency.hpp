@@ -77,7 +77,7 @@ inline std::string misplacement_of(const BehaviorTree& tree, std::size_t i) {
 
 // What is wrong with the node's contents, or "".
 inline std::string flaw_of(const BehaviorTree& tree, const Node& node) {
-  const NodeTypeInfo& info = node_types()[static_cast<std::size_t>(node.type)];
+  const NodeTypeInfo& info = kNodeTypes[static_cast<std::size_t>(node.type)];
   const int children = static_cast<int>(node.children.size());
   if (children < info.min_children || children > info.max_children) {
     return "a wrong number of children";

@@ -75,7 +75,7 @@ TEST_CASE("who resumes its running child is who can call one at once") {
 }
 
 TEST_CASE("a control node has a sign in pictures") {
-  for (const NodeTypeInfo& info : node_types()) {
+  for (const NodeTypeInfo& info : kNodeTypes) {
     CAPTURE(info.name);
     const bool is_control =
         info.max_children > 1 && info.type != NodeType::OtherControl;

@@ -155,8 +155,7 @@ class Confirmation {
     const AutomatonId automaton = network_.node_automaton[index(recovery)];
     for (std::uint32_t v = 0; v < network_.variables.size(); ++v) {
       const Variable& variable = network_.variables[v];
-      if (variable.owner == automaton &&
-          (variable.name == "retry" || variable.name == "count")) {
+      if (variable.owner == automaton && variable.local == LocalRole::Rounds) {
         return event.before.value(VariableId{v}) != 0;
       }
     }

@@ -23,7 +23,7 @@ std::string reason(const Asked& asked, const std::string& rule) {
 }
 
 TEST_CASE("whoever resumes a child is told to pass the guard over") {
-  for (const NodeTypeInfo& info : node_types()) {
+  for (const NodeTypeInfo& info : kNodeTypes) {
     if (info.max_children < 2 || kInXml.at(info.type).empty()) continue;
     CAPTURE(info.name);
     const std::string told =
@@ -39,7 +39,7 @@ TEST_CASE("whoever resumes a child is told to pass the guard over") {
 }
 
 TEST_CASE("whoever halts a child is told, with the reason") {
-  for (const NodeTypeInfo& info : node_types()) {
+  for (const NodeTypeInfo& info : kNodeTypes) {
     if (info.max_children < 2 || kInXml.at(info.type).empty()) continue;
     CAPTURE(info.name);
     const std::string told =

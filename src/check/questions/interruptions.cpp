@@ -130,7 +130,11 @@ class Search {
         return chosen(children);
       case Flow::Cases:
         return some_of(children);
-      case Flow::Leaf:
+      case Flow::AsContract:
+      case Flow::NeverFails:
+      case Flow::Evaluates:
+      case Flow::Executes:
+      case Flow::Queues:
       case Flow::Tries:
       case Flow::Maps:
       case Flow::Any:

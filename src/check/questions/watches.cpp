@@ -18,17 +18,6 @@ namespace {
 
 StateVector copied(StateView state) { return {state.begin(), state.end()}; }
 
-// Where a RecoveryNode or a RetryUntilSuccessful counts how often it has tried
-// again; nothing where it does not.
-std::optional<VariableId> tries_of(const Network& network, NodeId node) {
-  const auto& locals = network.automaton(node).locals;
-  const auto found = std::ranges::find_if(locals, [&](VariableId local) {
-    const std::string& name = network.variable(local).name;
-    return name == "retry" || name == "count";
-  });
-  return found == locals.end() ? std::nullopt : std::optional(*found);
-}
-
 // The nodes whose answer may be another one later, if anybody asked again.
 class Guards {
  public:
@@ -239,7 +228,8 @@ SightingWatch::SightingWatch(const std::vector<Sighting>& sightings,
           {network.node_status[index(node)], static_cast<int>(status)});
     }
     if (sighting.retried) {
-      const auto tries = tries_of(network, *sighting.retried);
+      const auto tries =
+          local_of(network, *sighting.retried, LocalRole::Rounds);
       if (!tries) continue;  // not counted: it cannot be seen
       watched.needed.push_back({*tries, 0, true});
     }

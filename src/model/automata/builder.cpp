@@ -6,11 +6,13 @@
 // open the choice stands in docs/semantics.md.
 #include "model/automata/builder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "model/automata/kept_arguments.hpp"
-#include "model/tree/node_types.hpp"
 #include "text/budget.hpp"
 
 namespace btcheck::mapping {
@@ -112,6 +114,25 @@ VariableId Context::fault() const {
   return *network.fault;
 }
 
+Drawings::Drawings(In language, std::initializer_list<Family> families)
+    : draws_(kNodeTypeCount, nullptr) {
+  const auto refuse = [](NodeType type, std::string_view why) {
+    throw std::logic_error(fmt::format("{} {}", type_name(type), why));
+  };
+  for (const Family family : families) {
+    for (const auto& [type, draw] : family) {
+      if (of(type) != nullptr) refuse(type, "is drawn twice");
+      draws_[static_cast<std::size_t>(type)] = draw;
+    }
+  }
+  for (const NodeTypeInfo& info : kNodeTypes) {
+    const bool is_drawn = of(info.type) != nullptr;
+    if (is_drawn == has(info.in, language)) continue;
+    refuse(info.type,
+           is_drawn ? "is drawn for a language without it" : "has no drawing");
+  }
+}
+
 NodeBuilder::NodeBuilder(Context& context, NodeId node)
     : context_(context), id_(node), node_(context.tree.node(node)) {}
 
@@ -165,9 +186,10 @@ LocationId NodeBuilder::waiting_beside(LocationId location) {
 }
 
 VariableId NodeBuilder::local(std::string_view name, int min, int max,
-                              int initial) {
+                              int initial, LocalRole role) {
   VariableId made = context_.add_variable(
       {VariableRole::Local, std::string(name), min, max, initial, {}});
+  context_.network.variables.back().local = role;
   automaton().locals.push_back(made);
   return made;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -13,6 +14,7 @@
 #include "model/automata/network.hpp"
 #include "model/automata/regions.hpp"
 #include "model/tree/answers.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck::mapping {
 
@@ -95,7 +97,8 @@ class NodeBuilder {
   // Where the node waits for the children that it halts in a location: each
   // such location has its own.
   LocationId waiting_beside(LocationId location);
-  VariableId local(std::string_view name, int min, int max, int initial);
+  VariableId local(std::string_view name, int min, int max, int initial,
+                   LocalRole role = LocalRole::Inner);
   // Makes a variable of the family one of this automaton's locals.
   void own(VariableId variable) { automaton().locals.push_back(variable); }
 
@@ -171,5 +174,26 @@ class NodeBuilder {
 
 // Draws the automaton of one node, frame included.
 using Draw = void (*)(NodeBuilder&);
+struct Drawing {
+  NodeType type{};
+  Draw draw = nullptr;
+};
+// Those of one family of node types: a table below its drawings.
+using Family = std::span<const Drawing>;
+
+// What each node type of a language does.
+class Drawings {
+ public:
+  // Throws, and names the type, where one that the language has by its row is
+  // not drawn; where one is drawn twice, or another one.
+  Drawings(In language, std::initializer_list<Family> families);
+
+  Draw of(NodeType type) const {
+    return draws_.at(static_cast<std::size_t>(type));
+  }
+
+ private:
+  std::vector<Draw> draws_;  // by NodeType
+};
 
 }  // namespace btcheck::mapping

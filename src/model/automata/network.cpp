@@ -144,6 +144,15 @@ bool is_choice(const Network& network, std::span<const int> values,
                                may_be_taken) > 1;
 }
 
+std::optional<VariableId> local_of(const Network& network, NodeId node,
+                                   LocalRole role) {
+  const auto& locals = network.automaton(node).locals;
+  const auto found = std::ranges::find(locals, role, [&](VariableId local) {
+    return network.variable(local).local;
+  });
+  return found == locals.end() ? std::nullopt : std::optional(*found);
+}
+
 std::optional<AutomatonId> automaton_at(const Network& network,
                                         VariableId variable) {
   const auto owner = network.variable(variable).owner;

@@ -164,6 +164,12 @@ enum class VariableRole : std::uint8_t {
   Fault      // 1 once an assignment has left its variable's range
 };
 
+// What a local is for, in any family of node types.
+enum class LocalRole : std::uint8_t {
+  Inner,  // of this node type's own
+  Rounds  // how many rounds are done, or how often it has tried again
+};
+
 // An integer in [min, max].
 struct Variable {
   VariableRole role = VariableRole::Local;
@@ -176,6 +182,7 @@ struct Variable {
   // variable the automaton that moves it.
   std::optional<AutomatonId> owner = std::nullopt;
   Scale scale = {};  // of a number
+  LocalRole local = LocalRole::Inner;
 
   std::int64_t domain_size() const {
     return std::int64_t{max} - std::int64_t{min} + 1;
@@ -251,6 +258,10 @@ std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
 // had another step to take where the variables have these values.
 bool is_choice(const Network& network, std::span<const int> values,
                std::uint32_t edge);
+
+// The node's local of this role, if it has one.
+std::optional<VariableId> local_of(const Network& network, NodeId node,
+                                   LocalRole role);
 
 // The automaton whose location the variable is, if it is one.
 std::optional<AutomatonId> automaton_at(const Network& network,

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "model/btcpp/known_types.hpp"
-#include "model/tree/node_types.hpp"
-#include "model/tree/releases.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <utility>
+
+#include "model/btcpp/attributes.hpp"
+#include "model/tree/releases.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -19,70 +22,153 @@ constexpr auto kInOut = BtcppDirection::InOut;
 constexpr std::array kSubTree = {
     PortRow{"_autoremap", kIn, Bool, Optional, "false",
             "If true, all the ports with the same name will be remapped"}};
+constexpr PortRow threshold(PortRow row) {
+  row.is_threshold = true;
+  return row;
+}
+
 constexpr std::array kParallel = {
-    PortRow{"success_count", kIn, Int, Optional, "-1",
-            "number of children that need to succeed to trigger a SUCCESS"},
-    PortRow{"failure_count", kIn, Int, Optional, "1",
-            "number of children that need to fail to trigger a FAILURE"}};
+    threshold({"success_count", kIn, Int, Optional, "-1",
+               "number of children that need to succeed to trigger a SUCCESS"}),
+    threshold({"failure_count", kIn, Int, Optional, "1",
+               "number of children that need to fail to trigger a FAILURE"})};
 constexpr Releases kHasTwoThresholds = {releases::kHasOneThreshold.end,
                                         kNoRelease};
 constexpr std::array kOldParallel = {
-    PortRow{.name = "threshold",
-            .type = Int,
-            .need = Mandatory,
-            .in = releases::kHasOneThreshold},
-    PortRow{.name = "success_threshold",
-            .type = Int,
-            .need = Mandatory,
-            .in = kHasTwoThresholds},
-    PortRow{.name = "failure_threshold", .type = Int, .in = kHasTwoThresholds}};
-constexpr std::array kParallelAll = {
-    PortRow{"max_failures", kIn, Int, Optional, "1",
-            "If the number of children returning FAILURE exceeds this value, "
-            "ParallelAll returns FAILURE"}};
+    threshold({.name = "threshold",
+               .type = Int,
+               .need = Mandatory,
+               .in = releases::kHasOneThreshold}),
+    threshold({.name = "success_threshold",
+               .type = Int,
+               .need = Mandatory,
+               .in = kHasTwoThresholds}),
+    threshold(
+        {.name = "failure_threshold", .type = Int, .in = kHasTwoThresholds})};
+void read_parallel(PortReader& ports, Node& node) {
+  const std::string_view successes = releases::success_port(ports.release());
+  node.threshold = ports.known_number(successes, -1);
+  node.counts_skipped = node.threshold < 0;
+  if (ports.is_in(releases::kHasOneThreshold)) {
+    const auto count = static_cast<int>(ports.element().children.size());
+    node.failure_threshold = count - node.threshold + 1;
+    return;
+  }
+  const bool is_3 = is_release_3(ports.profile());
+  node.failure_threshold =
+      ports.known_number(is_3 ? "failure_threshold" : "failure_count", 1);
+}
+
+constexpr std::array kParallelAll = {threshold(
+    {"max_failures", kIn, Int, Optional, "1",
+     "If the number of children returning FAILURE exceeds this value, "
+     "ParallelAll returns FAILURE"})};
+void read_parallel_all(PortReader& ports, Node& node) {
+  node.failure_threshold = ports.known_number("max_failures", 1);
+}
+
 constexpr std::array kTryCatch = {
     PortRow{"catch_on_halt", kIn, Bool, Optional, "false",
             "If true, execute the catch child when the node is halted during "
             "the try-block"}};
+void read_try_catch(PortReader& ports, Node& node) {
+  node.option = ports.flag("catch_on_halt", false);
+}
+
 constexpr std::array kRetry = {
     PortRow{"num_attempts", kIn, Int, Mandatory, "",
             "Execute again a failing child up to N times. Use -1 to create an "
             "infinite loop."}};
+void read_retry(PortReader& ports, Node& node) {
+  node.repetitions = ports.rounds("num_attempts");
+  ports.read_at_tick(node, Int, "num_attempts");
+}
+
 constexpr std::array kRepeat = {
     PortRow{"num_cycles", kIn, Int, Mandatory, "",
             "Repeat a successful child up to N times. Use -1 to create an "
             "infinite loop."}};
+void read_repeat(PortReader& ports, Node& node) {
+  node.repetitions = ports.rounds("num_cycles");
+  ports.read_at_tick(node, Int, "num_cycles");
+}
+
 constexpr std::array kSleep = {PortRow{"msec", kIn, Unsigned, Mandatory}};
 constexpr std::array kTimeout = {
     PortRow{"msec", kIn, Unsigned, Mandatory, "",
             "After a certain amount of time, halt() the child if it is still "
             "running."}};
+void read_milliseconds(PortReader& ports, Node& node) {
+  node.duration = ports.ticks("msec", 1);
+  ports.read_at_tick(node, Unsigned, "msec");
+}
+
 constexpr std::array kDelay = {
     PortRow{"delay_msec", kIn, Unsigned, Mandatory, "",
             "Tick the child after a few milliseconds"}};
+void read_delay(PortReader& ports, Node& node) {
+  node.duration = Duration{0, 0};
+  if (ports.is_in(releases::kDelayIsNone)) return;
+  node.duration = ports.ticks("delay_msec", 1);
+  ports.read_at_tick(node, Unsigned, "delay_msec");
+}
+
 constexpr std::array kRunOnce = {
     PortRow{"then_skip", kIn, Bool, Optional, "true",
             "If true, skip after the first execution, otherwise return the "
             "same NodeStatus returned once by the child."}};
+void read_run_once(PortReader& ports, Node& node) {
+  node.option = ports.flag("then_skip", true);
+}
+
 constexpr std::array kPrecondition = {
     PortRow{"if", kIn, Script, Mandatory},
     PortRow{"else", kIn, Status, Optional, "FAILURE",
             "Return status if condition is false"}};
+void read_precondition(PortReader& ports, Node& node) {
+  node.otherwise = ports.status("else", NodeStatus::Failure);
+  node.own_scripts = {ports.condition("if")};
+}
+
 constexpr std::array kScript = {PortRow{"code", kIn, Script, Mandatory, "",
                                         "Piece of code that can be parsed"}};
+void read_script(PortReader& ports, Node& node) {
+  node.own_scripts = {ports.action("code")};
+}
+
 constexpr std::array kScriptCondition = {
     PortRow{"code", kIn, Script, Mandatory, "",
             "Piece of code that can be parsed. Must return false or true",
             "BT::AnyTypeAllowed"}};
+void read_script_condition(PortReader& ports, Node& node) {
+  node.answers_value = true;
+  node.own_scripts = {ports.condition("code")};
+}
+
 constexpr std::array kSetBlackboard = {
     PortRow{"value", kIn, Any, Mandatory, "",
             "Value to be written into the output_key"},
     PortRow{"output_key", kInOut, Any, Mandatory, "",
             "Name of the blackboard entry where the value should be written"}};
+void read_set_blackboard(PortReader& ports, Node& node) {
+  node.own_scripts = {ports.set_blackboard()};
+}
+
 constexpr std::array kUnset = {
     PortRow{"key", kIn, String, Mandatory, "", "Key of the entry to remove"}};
+void read_unset_blackboard(PortReader& ports, Node& node) {
+  node.own_scripts = {ports.unset_blackboard()};
+}
+
 constexpr std::array kEntry = {
     PortRow{"entry", kIn, Any, Mandatory, "", "Entry to check", "BT::Any"}};
+template <NodeStatus otherwise>
+void read_when_updated(PortReader&, Node& node) {
+  node.otherwise = otherwise;
+}
+
+constexpr std::string_view kMayBeUpdated =
+    "the entry may have been written before each tick";
 constexpr std::array kSwitch = {PortRow{"variable", kIn, String, Mandatory},
                                 PortRow{"case_1", kIn, String, Mandatory},
                                 PortRow{"case_2", kIn, String, Mandatory},
@@ -90,6 +176,17 @@ constexpr std::array kSwitch = {PortRow{"variable", kIn, String, Mandatory},
                                 PortRow{"case_4", kIn, String, Mandatory},
                                 PortRow{"case_5", kIn, String, Mandatory},
                                 PortRow{"case_6", kIn, String, Mandatory}};
+void read_cases(PortReader& ports, Node& node) {
+  const PortComparison how = ports.is_in(releases::kSwitchComparesTexts)
+                                 ? PortComparison::Text
+                             : ports.is_in(releases::kSwitchReadsBeginnings)
+                                 ? PortComparison::OldSwitch
+                                 : PortComparison::Switch;
+  for (std::size_t i = 1; i < ports.element().children.size(); ++i) {
+    node.own_scripts.push_back(
+        ports.equality(how, "variable", fmt::format("case_{}", i)));
+  }
+}
 
 template <PortType type>
 constexpr std::array kLoop = {
@@ -98,28 +195,72 @@ constexpr std::array kLoop = {
             "Status to return if queue is empty: "
             "SUCCESS, FAILURE, SKIPPED"},
     PortRow{"value", kOut, type}};
+// "1;2;3" has three elements; a queue in an entry any number.
+void read_loop(PortReader& ports, Node& node) {
+  node.otherwise = ports.status("if_empty", NodeStatus::Success);
+  const std::string queue = ports.text("queue");
+  if (queue.starts_with("{") || queue.starts_with("json:")) {
+    node.repetitions = kOpenRounds;
+    return ports.leave_open(
+        "its queue, which an entry holds, may be empty in each tick");
+  }
+  const auto separators = std::ranges::count(queue, ';');
+  node.repetitions = queue.empty() ? 0 : static_cast<int>(separators + 1);
+}
+void read_loop_of_texts(PortReader& ports, Node& node) {
+  const std::string queue = ports.text("queue");
+  const bool is_literal = !queue.empty() && !queue.starts_with("{");
+  if (is_literal && ports.is_in(releases::kReadsNoTexts)) {
+    ports.refuse_unmodelled("queue", "a LoopString with a queue of its own");
+  }
+  read_loop(ports, node);
+}
+
 constexpr std::array kCheck = {PortRow{"value_A", kIn, Any, Mandatory},
                                PortRow{"value_B", kIn, Any, Mandatory},
                                PortRow{"return_on_mismatch", kIn, Status}};
+template <PortComparison how>
+void read_check(PortReader& ports, Node& node) {
+  const bool is_exact =
+      how == PortComparison::Double && ports.is_in(releases::kChecksExactly);
+  node.otherwise = ports.status("return_on_mismatch", NodeStatus::Failure);
+  node.own_scripts = {ports.equality(
+      is_exact ? PortComparison::ExactDouble : how, "value_A", "value_B")};
+}
 
 // Rows. Those of inner nodes first.
 constexpr NodeTypeRow control(std::string_view id, NodeType type,
                               std::span<const PortRow> ports = {},
+                              ReadPorts read = nullptr,
                               int exact_children = 0) {
-  return {id, BtcppKind::Control, type, ports, exact_children};
+  return {id, BtcppKind::Control, type, ports, exact_children, {}, read};
 }
+
 constexpr NodeTypeRow decorator(std::string_view id, NodeType type,
-                                std::span<const PortRow> ports = {}) {
-  return {id, BtcppKind::Decorator, type, ports};
+                                std::span<const PortRow> ports = {},
+                                ReadPorts read = nullptr) {
+  return {id, BtcppKind::Decorator, type, ports, 0, {}, read};
 }
+
 constexpr NodeTypeRow subtree(std::string_view id,
                               std::span<const PortRow> ports = {}) {
   return {id, BtcppKind::SubTree, NodeType::SubTree, ports};
 }
+
 // Cases 1 to `count`, and a last child for all other values.
 constexpr NodeTypeRow switch_of(std::string_view id, std::size_t count) {
   return control(id, NodeType::Switch, std::span(kSwitch).first(count + 1),
-                 static_cast<int>(count + 1));
+                 read_cases, static_cast<int>(count + 1));
+}
+
+constexpr NodeTypeRow with(KeyedEntry keyed, NodeTypeRow row) {
+  row.keyed = keyed;
+  return row;
+}
+
+constexpr NodeTypeRow open(std::string_view why, NodeTypeRow row) {
+  row.left_open = why;
+  return row;
 }
 
 // A leaf is reset when its parent gives it the status IDLE again: after the
@@ -143,9 +284,11 @@ constexpr LeafAnswers kRestarting = {true, true, true};
 
 constexpr NodeTypeRow action(std::string_view id, LeafAnswers answers,
                              std::span<const PortRow> ports = {},
-                             NodeType type = NodeType::Action) {
-  return {id, BtcppKind::Action, type, ports, 0, answers};
+                             NodeType type = NodeType::Action,
+                             ReadPorts read = nullptr) {
+  return {id, BtcppKind::Action, type, ports, 0, answers, read};
 }
+
 constexpr NodeTypeRow condition(std::string_view id,
                                 LeafMemory memory = LeafMemory::None) {
   const LeafAnswers answers = {true, true, false, memory};
@@ -156,23 +299,6 @@ constexpr NodeTypeRow in(Nav2Branches branches, NodeTypeRow row) {
   row.branches = branches;
   return row;
 }
-constexpr Nav2Branches from(Nav2Branch first) {
-  return Nav2Branches::between(first, Nav2Branch::Lyrical);
-}
-constexpr Nav2Branches kFromHumble = from(Nav2Branch::Humble);
-constexpr Nav2Branches kFromIron = from(Nav2Branch::Iron);
-constexpr Nav2Branches kFromJazzy = from(Nav2Branch::Jazzy);
-constexpr Nav2Branches kFromKilted = from(Nav2Branch::Kilted);
-constexpr Nav2Branches kFromLyrical = from(Nav2Branch::Lyrical);
-constexpr Nav2Branches kGalactic = {Nav2Branch::Galactic};
-constexpr Nav2Branches kKilted = {Nav2Branch::Kilted};
-constexpr Nav2Branches kUntilKilted =
-    Nav2Branches::between(Nav2Branch::Humble, Nav2Branch::Kilted);
-// Taken back into older branches, but not into all.
-constexpr Nav2Branches kNotIron = {Nav2Branch::Humble, Nav2Branch::Jazzy,
-                                   Nav2Branch::Kilted, Nav2Branch::Lyrical};
-constexpr Nav2Branches kJazzyAndLyrical = {Nav2Branch::Jazzy,
-                                           Nav2Branch::Lyrical};
 
 constexpr std::array kBothReleases = {
     control("Fallback", NodeType::Fallback),
@@ -181,11 +307,12 @@ constexpr std::array kBothReleases = {
     control("ReactiveFallback", NodeType::ReactiveFallback),
     control("IfThenElse", NodeType::IfThenElse),
     decorator("Inverter", NodeType::Inverter),
-    decorator("RetryUntilSuccessful", NodeType::RetryUntilSuccessful, kRetry),
+    decorator("RetryUntilSuccessful", NodeType::RetryUntilSuccessful, kRetry,
+              read_retry),
     decorator("KeepRunningUntilFailure", NodeType::KeepRunningUntilFailure),
-    decorator("Repeat", NodeType::Repeat, kRepeat),
-    decorator("Timeout", NodeType::Timeout, kTimeout),
-    decorator("Delay", NodeType::Delay, kDelay),
+    decorator("Repeat", NodeType::Repeat, kRepeat, read_repeat),
+    decorator("Timeout", NodeType::Timeout, kTimeout, read_milliseconds),
+    decorator("Delay", NodeType::Delay, kDelay, read_delay),
     decorator("ForceSuccess", NodeType::ForceSuccess),
     decorator("ForceFailure", NodeType::ForceFailure),
     action("AlwaysSuccess", kSucceeds),
@@ -201,52 +328,92 @@ constexpr std::array kOnlyVersion4 = {
     control("AsyncFallback", NodeType::AsyncFallback),
     control("AsyncSequence", NodeType::AsyncSequence),
     control("SequenceWithMemory", NodeType::SequenceWithMemory),
-    control("Parallel", NodeType::Parallel, kParallel),
-    control("ParallelAll", NodeType::ParallelAll, kParallelAll),
+    control("Parallel", NodeType::Parallel, kParallel, read_parallel),
+    control("ParallelAll", NodeType::ParallelAll, kParallelAll,
+            read_parallel_all),
     control("WhileDoElse", NodeType::WhileDoElse),
-    control("TryCatch", NodeType::TryCatch, kTryCatch),
-    decorator("RunOnce", NodeType::RunOnce, kRunOnce),
-    decorator("Precondition", NodeType::Precondition, kPrecondition),
-    action("Script", kSucceeds, kScript, NodeType::Script),
-    NodeTypeRow{"ScriptCondition", BtcppKind::Condition, NodeType::Script,
-                kScriptCondition},
+    control("TryCatch", NodeType::TryCatch, kTryCatch, read_try_catch),
+    decorator("RunOnce", NodeType::RunOnce, kRunOnce, read_run_once),
+    decorator("Precondition", NodeType::Precondition, kPrecondition,
+              read_precondition),
+    action("Script", kSucceeds, kScript, NodeType::Script, read_script),
+    NodeTypeRow{"ScriptCondition",
+                BtcppKind::Condition,
+                NodeType::Script,
+                kScriptCondition,
+                0,
+                {},
+                read_script_condition},
     // Fails where the entry that is copied has no value; throws where there is
     // no such entry.
-    action("SetBlackboard", kAtOnce, kSetBlackboard, NodeType::Script),
-    action("UnsetBlackboard", kSucceeds, kUnset, NodeType::Script),
+    with(KeyedEntry::IsSet, action("SetBlackboard", kAtOnce, kSetBlackboard,
+                                   NodeType::Script, read_set_blackboard)),
+    with(KeyedEntry::IsUnset, action("UnsetBlackboard", kSucceeds, kUnset,
+                                     NodeType::Script, read_unset_blackboard)),
     // Runs until its time is up; with no milliseconds it succeeds at once.
     action("Sleep", {true, false, true, LeafMemory::Latched}, kSleep,
-           NodeType::Wait),
-    decorator("LoopInt", NodeType::Loop, kLoop<Int>),
-    decorator("LoopBool", NodeType::Loop, kLoop<Bool>),
-    decorator("LoopDouble", NodeType::Loop, kLoop<Double>),
-    decorator("LoopString", NodeType::Loop, kLoop<String>),
+           NodeType::Wait, read_milliseconds),
+    decorator("LoopInt", NodeType::Loop, kLoop<Int>, read_loop),
+    decorator("LoopBool", NodeType::Loop, kLoop<Bool>, read_loop),
+    decorator("LoopDouble", NodeType::Loop, kLoop<Double>, read_loop),
+    decorator("LoopString", NodeType::Loop, kLoop<String>, read_loop_of_texts),
     // Remembers the last change it saw (`sequence_id_`) beyond a reset.
-    action("WasEntryUpdated", kAtOnce, kEntry),
-    decorator("SkipUnlessUpdated", NodeType::WhenUpdated, kEntry),
-    decorator("WaitValueUpdate", NodeType::WhenUpdated, kEntry)};
+    open(kMayBeUpdated, action("WasEntryUpdated", kAtOnce, kEntry)),
+    open(kMayBeUpdated,
+         decorator("SkipUnlessUpdated", NodeType::WhenUpdated, kEntry,
+                   read_when_updated<NodeStatus::Skipped>)),
+    open(kMayBeUpdated,
+         decorator("WaitValueUpdate", NodeType::WhenUpdated, kEntry,
+                   read_when_updated<NodeStatus::Running>))};
 
 constexpr std::array kOnlyVersion3 = {
     subtree("SubTree"),
     control("SequenceStar", NodeType::SequenceWithMemory),
-    control("Parallel", NodeType::Parallel, kOldParallel),
-    control("WhileDoElse", NodeType::WhileDoElse, {}, 3),
+    control("Parallel", NodeType::Parallel, kOldParallel, read_parallel),
+    control("WhileDoElse", NodeType::WhileDoElse, {}, nullptr, 3),
     subtree("SubTreePlus"),
-    action("SetBlackboard", kSucceeds, kSetBlackboard, NodeType::Script),
-    decorator("BlackboardCheckInt", NodeType::BlackboardCheck, kCheck),
-    decorator("BlackboardCheckDouble", NodeType::BlackboardCheck, kCheck),
-    decorator("BlackboardCheckString", NodeType::BlackboardCheck, kCheck),
-    decorator("BlackboardCheckBool", NodeType::BlackboardCheck, kCheck)};
+    with(KeyedEntry::IsSet, action("SetBlackboard", kSucceeds, kSetBlackboard,
+                                   NodeType::Script, read_set_blackboard)),
+    decorator("BlackboardCheckInt", NodeType::BlackboardCheck, kCheck,
+              read_check<PortComparison::Int>),
+    decorator("BlackboardCheckDouble", NodeType::BlackboardCheck, kCheck,
+              read_check<PortComparison::Double>),
+    decorator("BlackboardCheckString", NodeType::BlackboardCheck, kCheck,
+              read_check<PortComparison::Text>),
+    decorator("BlackboardCheckBool", NodeType::BlackboardCheck, kCheck,
+              read_check<PortComparison::Bool>)};
 
 constexpr std::array kRecovery = {PortRow{"number_of_retries", kIn, Int}};
+void read_recovery(PortReader& ports, Node& node) {
+  // Read into an unsigned number: what does not fit is silently 1.
+  const int retries = ports.known_number("number_of_retries", 1);
+  node.repetitions = retries < 0 ? 1 : retries;
+}
+
 constexpr std::array kRoundRobin = {PortRow{"wrap_around", kIn, Bool}};
+void read_round_robin(PortReader& ports, Node& node) {
+  node.option =
+      wraps_round(ports.profile()) || ports.flag("wrap_around", false);
+}
+
 constexpr std::array kPersistent = {
     PortRow{"current_child_idx", kInOut, Int, Mandatory}};
 constexpr std::array kRate = {PortRow{"hz", kIn, Double}};
+void read_rate(PortReader& ports, Node& node) {
+  node.duration = ports.period("hz");
+}
+
 constexpr std::array kDistance = {PortRow{"distance", kIn, Double}};
 constexpr std::array kSpeed = {
     PortRow{"min_rate", kIn, Double}, PortRow{"max_rate", kIn, Double},
     PortRow{"min_speed", kIn, Double}, PortRow{"max_speed", kIn, Double}};
+constexpr std::string_view kMayBeDue = "its child may be due in each tick";
+void read_when_due(PortReader&, Node& node) { node.contract.may_fail = false; }
+void read_speed(PortReader& ports, Node& node) {
+  read_when_due(ports, node);
+  node.option = keeps_speed_period(ports.profile());
+}
+
 constexpr std::array kApproach = {PortRow{"prox_len", kIn, Double},
                                   PortRow{"length_factor", kIn, Double}};
 
@@ -273,22 +440,30 @@ constexpr std::array kUndock = {PortRow{"dock_type", kIn, String},
                                 PortRow{"error_msg", kOut, String}};
 
 constexpr std::array kNav2 = {
-    control("RecoveryNode", NodeType::Recovery, kRecovery),
+    control("RecoveryNode", NodeType::Recovery, kRecovery, read_recovery),
     control("PipelineSequence", NodeType::PipelineSequence),
-    control("RoundRobin", NodeType::RoundRobin, kRoundRobin),
+    control("RoundRobin", NodeType::RoundRobin, kRoundRobin, read_round_robin),
     in(kFromLyrical,
        control("NonblockingSequence", NodeType::NonblockingSequence)),
-    in(kFromLyrical, control("PersistentSequence", NodeType::PersistentSequence,
-                             kPersistent)),
     in(kFromLyrical,
-       control("PauseResumeController", NodeType::PauseResumeController)),
-    decorator("RateController", NodeType::RateController, kRate),
-    decorator("DistanceController", NodeType::WhenDue, kDistance),
-    decorator("SpeedController", NodeType::WhenDue, kSpeed),
-    decorator("GoalUpdatedController", NodeType::WhenDue),
-    decorator("GoalUpdater", NodeType::GoalUpdater),
-    in(kFromHumble, decorator("PathLongerOnApproach",
-                              NodeType::PathLongerOnApproach, kApproach)),
+       open("its index, which an entry holds, may be any in each tick",
+            control("PersistentSequence", NodeType::PersistentSequence,
+                    kPersistent))),
+    in(kFromLyrical,
+       open("it may be asked to pause and to resume before each tick",
+            control("PauseResumeController", NodeType::PauseResumeController))),
+    decorator("RateController", NodeType::RateController, kRate, read_rate),
+    open(kMayBeDue,
+         decorator("DistanceController", NodeType::WhenDue, kDistance)),
+    open(kMayBeDue,
+         decorator("SpeedController", NodeType::WhenDue, kSpeed, read_speed)),
+    open(kMayBeDue, decorator("GoalUpdatedController", NodeType::WhenDue, {},
+                              read_when_due)),
+    open("what it writes is not known",
+         decorator("GoalUpdater", NodeType::GoalUpdater)),
+    in(kFromHumble, open("the path may have become longer in each tick",
+                         decorator("PathLongerOnApproach",
+                                   NodeType::PathLongerOnApproach, kApproach))),
     decorator("SingleTrigger", NodeType::SingleTrigger),
     // Conditions that ask the world.
     condition("GoalReached"),
@@ -383,71 +558,23 @@ constexpr std::array kNav2 = {
     in(kFromLyrical, action("CheckStopStatus", kRestarting)),
 };
 
-// py_trees: the arguments of the constructors, as the exporter writes them.
-constexpr std::array kMemory = {PortRow{"memory", kIn, Bool, Mandatory}};
-constexpr std::array kPolicy = {PortRow{"policy", kIn, String, Mandatory},
-                                PortRow{"synchronise", kIn, Bool},
-                                PortRow{"selected", kIn, String}};
-constexpr std::array kNumSuccess = {
-    PortRow{"num_success", kIn, Int, Mandatory}};
-constexpr std::array kNumFailures = {
-    PortRow{"num_failures", kIn, Int, Mandatory}};
-constexpr std::array kSeconds = {PortRow{"duration", kIn, Double, Mandatory}};
-constexpr std::array kOneShot = {PortRow{"policy", kIn, String, Mandatory}};
-constexpr std::array kAwaited = {PortRow{"status", kIn, String, Mandatory}};
-constexpr std::array kVariable = {PortRow{"variable_name", kIn, String}};
-constexpr std::array kCheckOf = {PortRow{"check", kIn, String}};
-constexpr std::array kSetVariable = {PortRow{"variable_name", kIn, String},
-                                     PortRow{"overwrite", kIn, Bool}};
-constexpr std::array kWeights = {PortRow{"weights", kIn, String}};
-constexpr std::array kTickCounter = {
-    PortRow{"duration", kIn, Int, Mandatory},
-    PortRow{"completion_status", kIn, String, Mandatory}};
-constexpr std::array kQueue = {PortRow{"queue", kIn, String, Mandatory},
-                               PortRow{"eventually", kIn, String}};
-constexpr std::array kPeriod = {PortRow{"n", kIn, Int, Mandatory}};
-
-constexpr LeafAnswers kRuns = {false, false, true};
-constexpr LeafAnswers kAwaits = {true, false, true};
-constexpr LeafAnswers kAnything = {true, true, true};
-
-constexpr std::array kPyTrees = {
-    subtree("SubTree"), control("Sequence", NodeType::Sequence, kMemory),
-    control("Selector", NodeType::Fallback, kMemory),
-    control("Parallel", NodeType::PolicyParallel, kPolicy),
-    control("EternalGuard", NodeType::EternalGuard),
-    decorator("Inverter", NodeType::Inverter),
-    decorator("FailureIsSuccess", NodeType::ForceSuccess),
-    decorator("SuccessIsFailure", NodeType::ForceFailure),
-    decorator("SuccessIsRunning", NodeType::KeepRunningUntilFailure),
-    decorator("FailureIsRunning", NodeType::AnswerMap),
-    decorator("RunningIsFailure", NodeType::AnswerMap),
-    decorator("RunningIsSuccess", NodeType::AnswerMap),
-    decorator("Condition", NodeType::AnswerMap, kAwaited),
-    decorator("PassThrough", NodeType::AnswerMap),
-    decorator("Count", NodeType::AnswerMap),
-    decorator("StatusToBlackboard", NodeType::AnswerMap, kVariable),
-    decorator("Repeat", NodeType::Repeat, kNumSuccess),
-    decorator("Retry", NodeType::RetryUntilSuccessful, kNumFailures),
-    decorator("Timeout", NodeType::Timeout, kSeconds),
-    decorator("OneShot", NodeType::RunOnce, kOneShot),
-    action("Success", kSucceeds), action("Failure", kFails),
-    action("Running", kRuns), action("Dummy", kRuns),
-    action("TickCounter", {}, kTickCounter, NodeType::AnswerQueue),
-    action("StatusQueue", {}, kQueue, NodeType::AnswerQueue),
-    action("Periodic", {}, kPeriod, NodeType::AnswerQueue),
-    action("SuccessEveryN", {}, kPeriod, NodeType::AnswerQueue),
-    action("Timer", kAwaits, kSeconds, NodeType::Wait),
-    action("ProbabilisticBehaviour", kAnything, kWeights),
-    // What is on the blackboard is left open.
-    action("CheckBlackboardVariableExists", kAtOnce, kVariable),
-    action("CheckBlackboardVariableValue", kAtOnce, kCheckOf),
-    action("CheckBlackboardVariableValues", kAtOnce, kCheckOf),
-    action("WaitForBlackboardVariable", kAwaits, kVariable),
-    action("WaitForBlackboardVariableValue", kAwaits, kCheckOf),
-    action("SetBlackboardVariable", kAtOnce, kSetVariable),
-    action("UnsetBlackboardVariable", kSucceeds, kVariable),
-    action("BlackboardToStatus", kAnything, kVariable)};
+// Of the user's program.
+struct KindRow {
+  BtcppKind kind;
+  NodeType type;
+};
+constexpr std::array kOfKind = {
+    KindRow{BtcppKind::Action, NodeType::Action},
+    KindRow{BtcppKind::Condition, NodeType::Condition},
+    KindRow{BtcppKind::Control, NodeType::OtherControl},
+    KindRow{BtcppKind::Decorator, NodeType::OtherDecorator},
+    KindRow{BtcppKind::SubTree, NodeType::SubTree}};
+static_assert(is_indexed(kOfKind, &KindRow::kind));
+static_assert(are_all_types(In::Btcpp,
+                            {kBothReleases, kOnlyVersion4, kOnlyVersion3,
+                             kNav2},
+                            {NodeType::BehaviorTree, NodeType::OtherControl,
+                             NodeType::OtherDecorator}));
 
 const NodeTypeRow* row_of(std::span<const NodeTypeRow> rows,
                           std::string_view id) {
@@ -467,7 +594,7 @@ std::span<const NodeTypeRow> only_in(BtcppRelease release) {
     case BtcppRelease::V4:
       return kOnlyVersion4;
     case BtcppRelease::PyTrees:
-      return kPyTrees;
+      return py_trees_types();
   }
   return {};
 }
@@ -493,6 +620,21 @@ PortType type_named(std::string_view name) {
 
 }  // namespace
 
+bool PortReader::flag(std::string_view name, bool otherwise) const {
+  const auto value = port(name);
+  return value ? parse_bool(*value).value_or(otherwise) : otherwise;
+}
+
+NodeStatus PortReader::status(std::string_view name,
+                              NodeStatus otherwise) const {
+  const std::string value = text(name);
+  if (value == "SUCCESS") return NodeStatus::Success;
+  if (value == "FAILURE") return NodeStatus::Failure;
+  if (value == "RUNNING") return NodeStatus::Running;
+  if (value == "SKIPPED") return NodeStatus::Skipped;
+  return otherwise;
+}
+
 std::string_view port_type_name(PortType type) {
   constexpr std::array<std::string_view, 8> kNames = {
       "any",    "int",    "unsigned int", "bool",
@@ -503,6 +645,11 @@ std::string_view port_type_name(PortType type) {
 const NodeTypeRow* builtin_type(BtcppRelease release, std::string_view id) {
   const NodeTypeRow* row = row_of(shared_in(release), id);
   return row != nullptr ? row : row_of(only_in(release), id);
+}
+
+KeyedEntry keyed_by(BtcppRelease release, std::string_view id) {
+  const NodeTypeRow* row = builtin_type(release, id);
+  return row != nullptr ? row->keyed : KeyedEntry::None;
 }
 
 const NodeTypeRow* nav2_type(std::string_view id) { return row_of(kNav2, id); }
@@ -520,95 +667,29 @@ BtcppRelease dialect_of(Profile profile) {
   return is_release_3(profile) ? BtcppRelease::V3 : BtcppRelease::V4;
 }
 
+namespace {
+struct BranchRow {
+  Nav2Branch branch;
+  Profile profile;
+};
 // What nobody has named is main rather than lyrical.
+constexpr std::array kBranches = {
+    BranchRow{Nav2Branch::Galactic, Profile::Nav2Galactic},
+    BranchRow{Nav2Branch::Humble, Profile::Nav2Humble},
+    BranchRow{Nav2Branch::Iron, Profile::Nav2Iron},
+    BranchRow{Nav2Branch::Jazzy, Profile::Nav2Jazzy},
+    BranchRow{Nav2Branch::Kilted, Profile::Nav2Kilted},
+    BranchRow{Nav2Branch::Lyrical, Profile::Nav2Main}};
+static_assert(is_indexed(kBranches, &BranchRow::branch));
+}  // namespace
+
 Profile profile_of_branch(Nav2Branch branch) {
-  constexpr std::array kProfiles = {Profile::Nav2Galactic, Profile::Nav2Humble,
-                                    Profile::Nav2Iron,     Profile::Nav2Jazzy,
-                                    Profile::Nav2Kilted,   Profile::Nav2Main};
-  return kProfiles[static_cast<std::size_t>(branch)];
+  return kBranches[static_cast<std::size_t>(branch)].profile;
 }
 
 Nav2Branch branch_of(Profile profile) {
-  constexpr auto kFirst = static_cast<int>(Profile::Nav2Galactic);
-  constexpr auto kLast = static_cast<int>(Nav2Branch::Lyrical);
-  const int number = static_cast<int>(profile) - kFirst;
-  return static_cast<Nav2Branch>(std::clamp(number, 0, kLast));
-}
-
-namespace {
-
-// Ports of Nav2's nodes that only some branches know; "" for any node.
-struct PortOfBranches {
-  std::string_view node;
-  std::string_view port;
-  Nav2Branches branches;
-};
-constexpr Nav2Branches kUntilJazzy =
-    Nav2Branches::between(Nav2Branch::Galactic, Nav2Branch::Jazzy);
-constexpr std::array kPortsOfBranches = {
-    PortOfBranches{"SpeedController", "filter_duration", kGalactic},
-    PortOfBranches{"BackUp", "time_allowance", kFromHumble},
-    PortOfBranches{"Spin", "time_allowance", kFromHumble},
-    PortOfBranches{"Spin", "is_recovery", kFromHumble},
-    PortOfBranches{"NavigateToPose", "behavior_tree", kFromHumble},
-    PortOfBranches{"NavigateThroughPoses", "behavior_tree", kFromHumble},
-    PortOfBranches{"RoundRobin", "wrap_around", kFromLyrical},
-    PortOfBranches{"", "error_msg", kFromKilted},
-    PortOfBranches{"", "error_code_id", kFromIron},
-    PortOfBranches{"", "disable_collision_checks", kFromKilted},
-    PortOfBranches{"FollowPath", "progress_checker_id", kFromIron},
-    PortOfBranches{"FollowPath", "path_handler_id", kFromLyrical},
-    PortOfBranches{"FollowPath", "tracking_feedback", kFromLyrical},
-    PortOfBranches{"ComputePathToPose", "viapoints", kFromLyrical},
-    PortOfBranches{"ComputePathToPose", "use_start", kFromJazzy},
-    PortOfBranches{"GoalUpdater", "input_goals", kFromKilted},
-    PortOfBranches{"GoalUpdater", "output_goals", kFromKilted},
-    PortOfBranches{"GoalUpdated", "goal", kFromJazzy},
-    PortOfBranches{"GoalUpdated", "goals", kFromJazzy},
-    PortOfBranches{"GlobalUpdatedGoal", "goal", kFromJazzy},
-    PortOfBranches{"GlobalUpdatedGoal", "goals", kFromJazzy},
-    PortOfBranches{"IsPathValid", "max_cost", kKilted},
-    PortOfBranches{"IsPathValid", "consider_unknown_as_obstacle", kKilted},
-    PortOfBranches{"GoalReached", "global_frame", kUntilJazzy},
-    PortOfBranches{"RemovePassedGoals", "global_frame", kUntilJazzy},
-    PortOfBranches{"TruncatePathLocal", "robot_frame", kUntilKilted},
-    PortOfBranches{"TruncatePathLocal", "robot_base_frame", kFromLyrical}};
-
-Nav2Branches branches_for(const BtcppNode& node, const NodeTypeRow& type) {
-  Nav2Branches branches = type.branches;
-  for (const BtcppAttribute& port : node.ports) {
-    branches = branches & branches_with_port(node.id, port.name);
-  }
-  return branches;
-}
-
-}  // namespace
-
-Nav2Branches branches_with_port(std::string_view node, std::string_view port) {
-  Nav2Branches branches = Nav2Branches::all();
-  for (const PortOfBranches& row : kPortsOfBranches) {
-    const bool is_meant = row.node.empty() || row.node == node;
-    if (is_meant && row.port == port) branches = branches & row.branches;
-  }
-  return branches;
-}
-
-Nav2Branches branches_for(const BtcppDocument& document) {
-  constexpr Nav2Branches kOn3 =
-      Nav2Branches::between(Nav2Branch::Galactic, Nav2Branch::Iron);
-  Nav2Branches branches =
-      document.release == BtcppRelease::V3 ? kOn3 : kFromJazzy;
-  for (const BtcppTree& tree : document.trees) {
-    for (const BtcppNode& node : tree.nodes) {
-      const NodeTypeRow* type = nav2_type(node.id);
-      const bool is_other =
-          builtin_type(document.release, node.id) != nullptr ||
-          document.model(node.id) != nullptr;
-      if (type == nullptr || is_other) continue;
-      branches = branches & branches_for(node, *type);
-    }
-  }
-  return branches;
+  const auto row = std::ranges::find(kBranches, profile, &BranchRow::profile);
+  return row == kBranches.end() ? Nav2Branch::Lyrical : row->branch;
 }
 
 std::vector<std::string> builtin_names(BtcppRelease release) {
@@ -662,34 +743,27 @@ OldName old_name(BtcppRelease release, std::string_view id) {
   return {};
 }
 
-namespace {
-bool is_leaf_of_two_kinds(const NodeTypeRow& row) {
-  return row.kind == BtcppKind::Condition && row.type == NodeType::Action;
-}
-}  // namespace
-
-NodeType engine_type(BtcppRelease release, const BtcppNode& node) {
-  constexpr std::array kOfKind = {NodeType::Action, NodeType::Condition,
-                                  NodeType::OtherControl,
-                                  NodeType::OtherDecorator, NodeType::SubTree};
-  const NodeType plain = kOfKind[static_cast<std::size_t>(node.kind)];
-  if (node.kind == BtcppKind::SubTree) return plain;
+const NodeTypeRow* engine_row(BtcppRelease release, const BtcppNode& node) {
   const bool is_of_py_trees = release == BtcppRelease::PyTrees;
   // One of the project's own, whatever a later release calls so.
   const bool is_own =
       release == BtcppRelease::V3 && first_release(node.id) > kNewestRelease3;
-  if (is_own) return plain;
+  if (is_own || node.kind == BtcppKind::SubTree) return nullptr;
   const NodeTypeRow* row =
       known_type(is_of_py_trees ? release : BtcppRelease::V4, node.id);
   if (row == nullptr && !is_of_py_trees) row = row_of(kOnlyVersion3, node.id);
+  if (row == nullptr) return nullptr;
   // A model may make an Action or a Condition of a leaf of Nav2. A condition
   // that may run is an Action to all but its author.
-  if (row != nullptr && row->kind == node.kind && is_leaf_of_two_kinds(*row)) {
-    return row->type;
-  }
-  const bool is_special =
-      row != nullptr && std::ranges::find(kOfKind, row->type) == kOfKind.end();
-  return is_special ? row->type : plain;
+  const bool is_plain =
+      std::ranges::find(kOfKind, row->type, &KindRow::type) != kOfKind.end();
+  return is_plain && row->kind != node.kind ? nullptr : row;
+}
+
+NodeType engine_type(BtcppRelease release, const BtcppNode& node) {
+  const NodeTypeRow* row = engine_row(release, node);
+  return row != nullptr ? row->type
+                        : kOfKind[static_cast<std::size_t>(node.kind)].type;
 }
 
 const LibraryType* library_type_of(const BtcppNode& node,

@@ -8,6 +8,7 @@
 // those of py_trees 2.2.3.
 #pragma once
 
+#include <array>
 #include <initializer_list>
 #include <optional>
 #include <span>
@@ -17,7 +18,9 @@
 
 #include "model/btcpp/document.hpp"
 #include "model/btcpp/libraries/libraries.hpp"
+#include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
+#include "text/findings.hpp"
 
 namespace btcheck::btcpp {
 
@@ -47,7 +50,12 @@ struct PortRow {
   std::string_view about = {};      // what the port is for
   std::string_view type_word = {};  // where `type` is not precise enough
   Releases in = {0, kNoRelease};    // that have it
+  bool is_threshold = false;        // it counts children
 };
+
+// What a type does to the entry that its port names: SetBlackboard's
+// `output_key`, UnsetBlackboard's `key`.
+enum class KeyedEntry : std::uint8_t { None, IsSet, IsUnset };
 
 // What a leaf can answer, and what it remembers. None can answer SKIPPED.
 struct LeafAnswers {
@@ -101,12 +109,90 @@ class Nav2Branches {
   unsigned bits_ = 0;
 };
 
+constexpr Nav2Branches from(Nav2Branch first) {
+  return Nav2Branches::between(first, Nav2Branch::Lyrical);
+}
+inline constexpr Nav2Branches kFromHumble = from(Nav2Branch::Humble);
+inline constexpr Nav2Branches kFromIron = from(Nav2Branch::Iron);
+inline constexpr Nav2Branches kFromJazzy = from(Nav2Branch::Jazzy);
+inline constexpr Nav2Branches kFromKilted = from(Nav2Branch::Kilted);
+inline constexpr Nav2Branches kFromLyrical = from(Nav2Branch::Lyrical);
+inline constexpr Nav2Branches kGalactic = {Nav2Branch::Galactic};
+inline constexpr Nav2Branches kKilted = {Nav2Branch::Kilted};
+inline constexpr Nav2Branches kUntilJazzy =
+    Nav2Branches::between(Nav2Branch::Galactic, Nav2Branch::Jazzy);
+inline constexpr Nav2Branches kUntilKilted =
+    Nav2Branches::between(Nav2Branch::Humble, Nav2Branch::Kilted);
+// Taken back into older branches, but not into all.
+inline constexpr Nav2Branches kNotIron = {Nav2Branch::Humble, Nav2Branch::Jazzy,
+                                          Nav2Branch::Kilted,
+                                          Nav2Branch::Lyrical};
+inline constexpr Nav2Branches kJazzyAndLyrical = {Nav2Branch::Jazzy,
+                                                  Nav2Branch::Lyrical};
+
 Profile profile_of_branch(Nav2Branch branch);
 // Of a profile of Nav2.
 Nav2Branch branch_of(Profile profile);
 
 // Which XML the trees of a profile are written in.
 BtcppRelease dialect_of(Profile profile);
+
+// How a node compares the values of two ports.
+enum class PortComparison : std::uint8_t {
+  Switch,  // of 4.10 (details::CheckStringEquality): texts, or the numbers that
+           // they are
+  OldSwitch,  // of 4.5 to 4.9: texts, or the numbers that they begin with
+  Text,       // Switch before 4.5, BlackboardCheckString
+  Int,        // BlackboardCheckInt, …: what cannot be read equals nothing
+  Double,
+  ExactDouble,  // before 3.7
+  Bool
+};
+
+// What the ports of one node say, as its profile reads them. What cannot be
+// read, or is left open, is told.
+class PortReader {
+ public:
+  virtual const BtcppNode& element() const = 0;
+  virtual std::vector<const BtcppNode*> children() const = 0;
+  virtual Profile profile() const = 0;
+  // As it is written, else the default of its model.
+  virtual std::optional<std::string> port(std::string_view name) const = 0;
+  // A number that has to be known before the run.
+  virtual int known_number(std::string_view name, int otherwise) = 0;
+  // These are left open where an entry has them.
+  virtual int rounds(std::string_view name) = 0;
+  virtual Duration ticks(std::string_view name, double unit_ms) = 0;
+  virtual Duration period(std::string_view name) = 0;
+  // tick() reads a number by this port, and throws where none can be read.
+  virtual void read_at_tick(Node& node, PortType type,
+                            std::string_view name) = 0;
+  // Scripts: of a port, one that decides; of what the node does by itself.
+  virtual Script condition(std::string_view port) = 0;
+  virtual Script action(std::string_view port) = 0;
+  virtual Script equality(PortComparison how, std::string_view one,
+                          std::string_view other) = 0;
+  virtual Script set_blackboard() = 0;
+  virtual Script unset_blackboard() = 0;
+  virtual void refuse(const BtcppPlace& place, Wording finding) = 0;
+  virtual void refuse_unmodelled(std::string_view port,
+                                 std::string message) = 0;
+  // Why not all that the node does is modelled.
+  virtual void leave_open(std::string_view why) = 0;
+
+  std::string text(std::string_view name) const {
+    return port(name).value_or("");
+  }
+  bool flag(std::string_view name, bool otherwise) const;
+  NodeStatus status(std::string_view name, NodeStatus otherwise) const;
+  int release() const { return engine_release(profile()); }
+  bool is_in(const Releases& releases) const { return releases.has(release()); }
+
+ protected:
+  ~PortReader() = default;
+};
+// Puts what the ports of a type say into its node.
+using ReadPorts = void (*)(PortReader& ports, Node& node);
 
 struct NodeTypeRow {
   std::string_view id;
@@ -117,12 +203,42 @@ struct NodeTypeRow {
   // allows more; otherwise 0. Loading is less strict than ticking.
   int exact_children = 0;
   LeafAnswers answers = {};
+  ReadPorts read = nullptr;  // where the node is made of more than its type
+  // What it decides by something that is not modelled, so that every decision
+  // is allowed.
+  std::string_view left_open = {};
+  KeyedEntry keyed = KeyedEntry::None;
   // Those that have a type of Nav2.
   Nav2Branches branches = Nav2Branches::all();
 };
 
+// Whether each type of a language is that of a row, or one of the others, and
+// no type of another language is.
+constexpr bool are_all_types(
+    In language, std::initializer_list<std::span<const NodeTypeRow>> tables,
+    std::initializer_list<NodeType> others) {
+  std::array<bool, kNodeTypeCount> is_there{};
+  for (const NodeType type : others) is_there[static_cast<int>(type)] = true;
+  for (const auto rows : tables) {
+    for (const NodeTypeRow& row : rows) {
+      is_there[static_cast<int>(row.type)] = true;
+    }
+  }
+  for (const NodeTypeInfo& info : kNodeTypes) {
+    if (is_there[static_cast<int>(info.type)] != has(info.in, language)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::span<const NodeTypeRow> py_trees_types();
+
 // A node type that every program of this release registers, or nullptr.
 const NodeTypeRow* builtin_type(BtcppRelease release, std::string_view id);
+
+// What the built-in type of this name does to an entry that a port names.
+KeyedEntry keyed_by(BtcppRelease release, std::string_view id);
 
 // A node type of any branch of Nav2, or nullptr. Its ports differ between the
 // branches, so a node may have ports that the row does not list.
@@ -158,8 +274,10 @@ Nav2Branches branches_with_port(std::string_view node, std::string_view port);
 Nav2Branches branches_for(const BtcppDocument& document);
 
 // What an element is lowered as: decided by its type, of either release, or by
-// its kind when the type belongs to the user's program.
+// its kind when the type belongs to the user's program. The row is that of the
+// type, or nullptr.
 NodeType engine_type(BtcppRelease release, const BtcppNode& node);
+const NodeTypeRow* engine_row(BtcppRelease release, const BtcppNode& node);
 
 struct PortFacts {
   BtcppDirection direction = BtcppDirection::Input;

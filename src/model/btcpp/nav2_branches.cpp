@@ -91,4 +91,78 @@ std::vector<Diagnostic> missing_in_branch(const BtcppDocument& document,
   return BranchCheck(document, profile).check();
 }
 
+namespace {
+
+// Ports of Nav2's nodes that only some branches know; "" for any node.
+struct PortOfBranches {
+  std::string_view node;
+  std::string_view port;
+  Nav2Branches branches;
+};
+constexpr std::array kPortsOfBranches = {
+    PortOfBranches{"SpeedController", "filter_duration", kGalactic},
+    PortOfBranches{"BackUp", "time_allowance", kFromHumble},
+    PortOfBranches{"Spin", "time_allowance", kFromHumble},
+    PortOfBranches{"Spin", "is_recovery", kFromHumble},
+    PortOfBranches{"NavigateToPose", "behavior_tree", kFromHumble},
+    PortOfBranches{"NavigateThroughPoses", "behavior_tree", kFromHumble},
+    PortOfBranches{"RoundRobin", "wrap_around", kFromLyrical},
+    PortOfBranches{"", "error_msg", kFromKilted},
+    PortOfBranches{"", "error_code_id", kFromIron},
+    PortOfBranches{"", "disable_collision_checks", kFromKilted},
+    PortOfBranches{"FollowPath", "progress_checker_id", kFromIron},
+    PortOfBranches{"FollowPath", "path_handler_id", kFromLyrical},
+    PortOfBranches{"FollowPath", "tracking_feedback", kFromLyrical},
+    PortOfBranches{"ComputePathToPose", "viapoints", kFromLyrical},
+    PortOfBranches{"ComputePathToPose", "use_start", kFromJazzy},
+    PortOfBranches{"GoalUpdater", "input_goals", kFromKilted},
+    PortOfBranches{"GoalUpdater", "output_goals", kFromKilted},
+    PortOfBranches{"GoalUpdated", "goal", kFromJazzy},
+    PortOfBranches{"GoalUpdated", "goals", kFromJazzy},
+    PortOfBranches{"GlobalUpdatedGoal", "goal", kFromJazzy},
+    PortOfBranches{"GlobalUpdatedGoal", "goals", kFromJazzy},
+    PortOfBranches{"IsPathValid", "max_cost", kKilted},
+    PortOfBranches{"IsPathValid", "consider_unknown_as_obstacle", kKilted},
+    PortOfBranches{"GoalReached", "global_frame", kUntilJazzy},
+    PortOfBranches{"RemovePassedGoals", "global_frame", kUntilJazzy},
+    PortOfBranches{"TruncatePathLocal", "robot_frame", kUntilKilted},
+    PortOfBranches{"TruncatePathLocal", "robot_base_frame", kFromLyrical}};
+
+Nav2Branches branches_for(const BtcppNode& node, const NodeTypeRow& type) {
+  Nav2Branches branches = type.branches;
+  for (const BtcppAttribute& port : node.ports) {
+    branches = branches & branches_with_port(node.id, port.name);
+  }
+  return branches;
+}
+
+}  // namespace
+
+Nav2Branches branches_with_port(std::string_view node, std::string_view port) {
+  Nav2Branches branches = Nav2Branches::all();
+  for (const PortOfBranches& row : kPortsOfBranches) {
+    const bool is_meant = row.node.empty() || row.node == node;
+    if (is_meant && row.port == port) branches = branches & row.branches;
+  }
+  return branches;
+}
+
+Nav2Branches branches_for(const BtcppDocument& document) {
+  constexpr Nav2Branches kOn3 =
+      Nav2Branches::between(Nav2Branch::Galactic, Nav2Branch::Iron);
+  Nav2Branches branches =
+      document.release == BtcppRelease::V3 ? kOn3 : kFromJazzy;
+  for (const BtcppTree& tree : document.trees) {
+    for (const BtcppNode& node : tree.nodes) {
+      const NodeTypeRow* type = nav2_type(node.id);
+      const bool is_other =
+          builtin_type(document.release, node.id) != nullptr ||
+          document.model(node.id) != nullptr;
+      if (type == nullptr || is_other) continue;
+      branches = branches & branches_for(node, *type);
+    }
+  }
+  return branches;
+}
+
 }  // namespace btcheck::btcpp

@@ -106,6 +106,7 @@ struct KeywordRule {
   std::string_view name;  // without the colon
   Takes takes = Takes::Word;
   std::uint64_t types = ~std::uint64_t{0};  // of nodes: a bit for each NodeType
+  std::uint64_t needed_by = 0;              // likewise
 };
 
 struct Clause {

@@ -51,10 +51,28 @@ constexpr std::array<KeywordRule, 15> kKeywords = {{
     {"SF", Takes::Flag, bit(NodeType::Action)},
     {"sv", Takes::Word, bit(NodeType::SetSV)},
     {"duration", Takes::List,
-     any_of({NodeType::Action, NodeType::Wait, NodeType::Timeout})},
+     any_of({NodeType::Action, NodeType::Wait, NodeType::Timeout}),
+     any_of({NodeType::Wait, NodeType::Timeout})},
     {"args", Takes::List,
      any_of({NodeType::Action, NodeType::Condition, NodeType::SetSV,
              NodeType::Wait, NodeType::RateController, NodeType::SubTree})},
+}};
+
+// A number that a type needs: its keyword, with another spelling or none.
+struct CountRule {
+  NodeType type;
+  std::array<std::string_view, 2> names;
+  int least;
+  int Node::*into;
+};
+constexpr std::array<CountRule, 4> kCounts = {{
+    {NodeType::Parallel, {"success", ""}, 1, &Node::threshold},
+    {NodeType::Repeat, {"repeat", ""}, 1, &Node::repetitions},
+    {NodeType::RetryUntilSuccessful,
+     {"num_attempts", ""},
+     1,
+     &Node::repetitions},
+    {NodeType::Recovery, {"num_retries", "retry"}, 0, &Node::repetitions},
 }};
 
 std::string children(int count) {
@@ -256,41 +274,28 @@ class NodeReader {
     node().wait = clauses_.flag("wait");
     if (clauses_.flag("SF")) node().contract.may_run = false;
     read_duration();
-    switch (node().type) {
-      case NodeType::Parallel:
-        node().threshold = read_count({"success"}, 1, std::max(child_count, 1));
-        break;
-      case NodeType::ParallelAll:
-        node().threshold = child_count;
-        break;
-      case NodeType::Repeat:
-        node().repetitions = read_count({"repeat"}, 1, kMostRounds);
-        break;
-      case NodeType::RetryUntilSuccessful:
-        node().repetitions = read_count({"num_attempts"}, 1, kMostRounds);
-        break;
-      case NodeType::Recovery:
-        node().repetitions =
-            read_count({"num_retries", "retry"}, 0, kMostRounds);
-        break;
-      case NodeType::SetSV:
-        read_variable();
-        break;
-      case NodeType::SubTree:
-        if (!clauses_.find("ID") && !clauses_.find("name"))
-          report_missing(":ID");
-        break;
-      default:
-        break;
+    const NodeType type = node().type;
+    for (const KeywordRule& rule : kKeywords) {
+      const bool is_needed = (rule.needed_by & bit(type)) != 0;
+      if (is_needed && !clauses_.find(rule.name)) {
+        report_missing(fmt::format(":{}", rule.name));
+      }
     }
+    for (const CountRule& rule : kCounts) {
+      const bool is_of_children = type == NodeType::Parallel;
+      const int most = is_of_children ? std::max(child_count, 1) : kMostRounds;
+      if (rule.type == type) node().*rule.into = read_count(rule, most);
+    }
+    if (type == NodeType::ParallelAll) node().threshold = child_count;
+    if (type == NodeType::SetSV) read_variable();
+    const bool is_named = clauses_.find("ID") || clauses_.find("name");
+    if (type == NodeType::SubTree && !is_named) report_missing(":ID");
   }
 
-  // The count after one of several spellings of a keyword.
-  int read_count(std::initializer_list<std::string_view> names, int least,
-                 int most) {
+  int read_count(const CountRule& rule, int most) {
     const Clause* found = nullptr;
-    for (const std::string_view name : names) {
-      const Clause* clause = clauses_.find(name);
+    for (const std::string_view name : rule.names) {
+      const Clause* clause = name.empty() ? nullptr : clauses_.find(name);
       if (found && clause) {
         reading_.error(
             reading_.form(clause->keyword).span, "BT1006",
@@ -300,18 +305,16 @@ class NodeReader {
       }
       if (!found) found = clause;
     }
-    if (found) return clauses_.integer(*found, least, most).value_or(least);
-    report_missing(fmt::format(":{}", *names.begin()));
-    return least;
+    if (!found) report_missing(fmt::format(":{}", rule.names[0]));
+    return found
+               ? clauses_.integer(*found, rule.least, most).value_or(rule.least)
+               : rule.least;
   }
 
   void read_duration() {
     if (const Clause* clause = clauses_.find("duration")) {
       node().duration = clauses_.duration(*clause);
       refuse_no_time(clauses_.value(*clause));
-    } else if (node().type == NodeType::Wait ||
-               node().type == NodeType::Timeout) {
-      report_missing(":duration");
     }
   }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <map>
 #include <span>
 
@@ -68,28 +67,6 @@ Answers of_queue(const Node& node) {
           has(NodeStatus::Running)};
 }
 
-Answers of_leaf(const Node& node) {
-  const LeafContract& contract = node.contract;
-  switch (node.type) {
-    case NodeType::Action:
-    case NodeType::Condition:
-      return {.success = contract.may_succeed,
-              .failure = contract.may_fail || !contract.needed().is_true(),
-              .runs = contract.may_run};
-    case NodeType::SetSV:
-    case NodeType::Wait:
-      return {.failure = false};
-    case NodeType::Eval:
-      return {.failure = !node.assignment.has_value()};
-    case NodeType::Script:
-      return {.failure = node.answers_value, .runs = false};
-    case NodeType::AnswerQueue:
-      return of_queue(node);
-    default:
-      return {};
-  }
-}
-
 Answers mapped(const Node& node, const Answers& child) {
   const auto gives = [&](NodeStatus answer) {
     return (child.success && node.becomes.of_success == answer) ||
@@ -100,10 +77,25 @@ Answers mapped(const Node& node, const Answers& child) {
           gives(NodeStatus::Running)};
 }
 
-Answers of_inner(const Node& node, const AllAnswers& answers) {
-  const Answers& first = answers[index(node.children[0])];
+// Whatever its conditions do.
+Answers by_flow(const Node& node, const AllAnswers& answers) {
+  const LeafContract& contract = node.contract;
+  const Answers first =
+      is_leaf(node.type) ? Answers{} : answers[index(node.children[0])];
   const bool ends = first.success || first.failure;
   switch (info_of(node.type).flow) {
+    case Flow::AsContract:
+      return {contract.may_succeed,
+              contract.may_fail || !contract.needed().is_true(),
+              contract.may_run};
+    case Flow::NeverFails:
+      return {.failure = false};
+    case Flow::Evaluates:
+      return {.failure = !node.assignment.has_value()};
+    case Flow::Executes:
+      return {.failure = node.answers_value, .runs = false};
+    case Flow::Queues:
+      return of_queue(node);
     case Flow::AsChild:
       return {first.success, first.failure};
     case Flow::Inverts:
@@ -127,14 +119,12 @@ Answers of_inner(const Node& node, const AllAnswers& answers) {
     case Flow::OnSuccess:
     case Flow::OnFailure:
       return in_turn(node, answers);
-    case Flow::Leaf:
     case Flow::Tries:
     case Flow::Chooses:
     case Flow::Cases:
     case Flow::Any:
-      return {};
+      break;
   }
-  assert(false);
   return {};
 }
 
@@ -159,7 +149,7 @@ bool may_skip(const Node& node, const AllAnswers& answers, bool stays) {
   const Children children(node.children);
   switch (info_of(node.type).skips) {
     case Skips::Never:
-      return false;
+      break;
     case Skips::AsContract:
       return node.contract.may_skip;
     case Skips::Some:
@@ -181,8 +171,7 @@ bool may_skip(const Node& node, const AllAnswers& answers, bool stays) {
     case Skips::SomeOrOtherwise:
       return some(children) || node.otherwise == NodeStatus::Skipped;
   }
-  assert(false);
-  return true;
+  return false;
 }
 
 // Of Repeat and RetryUntilSuccessful.
@@ -203,7 +192,7 @@ bool leaves_ended(const Node& node, std::size_t i, int release) {
   if (goes_round && releases::kRoundsKeepChild.has(release)) return true;
   switch (info_of(node.type).ended) {
     case Ended::None:
-      return false;
+      break;
     case Ended::First:
       return i == 0;
     case Ended::FirstOfTwo:
@@ -211,8 +200,7 @@ bool leaves_ended(const Node& node, std::size_t i, int release) {
     case Ended::All:
       return true;
   }
-  assert(false);
-  return true;
+  return false;
 }
 
 class Unreached {
@@ -310,7 +298,7 @@ std::vector<Answers> possible_answers(const BehaviorTree& tree) {
   for (std::size_t i = tree.nodes.size(); i-- > 0;) {
     const Node& node = tree.nodes[i];
     const bool stays = answers[i].stays;
-    answers[i] = is_leaf(node.type) ? of_leaf(node) : of_inner(node, answers);
+    answers[i] = by_flow(node, answers);
     answers[i].stays = stays;
     answers[i].skipped =
         is_engine(tree.profile) &&

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
 // The types of nodes: one row of facts for each, all that depends on the type
-// alone. What a type does is its drawing, in mapping/.
+// alone. What a type does is its drawing, in mapping/; what XML trees call it,
+// and what its ports say, is in btcpp/known_types.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string_view>
 #include <vector>
+
+#include "text/tables.hpp"
 
 namespace btcheck {
 
@@ -63,12 +66,25 @@ enum class NodeType : std::uint8_t {
   PolicyParallel,  // py_trees: Parallel
   EternalGuard,    // py_trees
   AnswerMap,       // py_trees: FailureIsRunning, Condition, PassThrough, …
-  AnswerQueue      // py_trees: StatusQueue, TickCounter, Periodic, …
+  AnswerQueue,     // py_trees: StatusQueue, TickCounter, Periodic, …
+  Count            // no type: how many there are
 };
-inline constexpr std::size_t kNodeTypeCount = 51;
+inline constexpr auto kNodeTypeCount =
+    static_cast<std::size_t>(NodeType::Count);
 
-// Which trees have the type.
-enum class In : std::uint8_t { Btf, Xml, Both };
+// Which languages have the type, a bit for each: .btf, XML of BehaviorTree.CPP
+// and Nav2, XML of py_trees.
+enum class In : std::uint8_t {
+  Btf = 1,
+  Btcpp = 2,
+  PyTrees = 4,
+  Both = Btf | Btcpp,
+  Xml = Btcpp | PyTrees,
+  All = Btf | Xml
+};
+constexpr bool has(In all, In language) {
+  return (static_cast<unsigned>(all) & static_cast<unsigned>(language)) != 0;
+}
 
 // What a node ticks besides a child that runs, in the ticks after the first.
 enum class Beside : std::uint8_t {
@@ -78,9 +94,14 @@ enum class Beside : std::uint8_t {
   Any       // other children, too; or it has no other
 };
 
-// Which of its children the tick gets to, and what it answers by them.
+// Which of its children the tick gets to, and what it answers by them. First
+// those of leaves.
 enum class Flow : std::uint8_t {
-  Leaf,
+  AsContract,    // what its contract says
+  NeverFails,    // it succeeds, or runs
+  Evaluates,     // fails where it asks and assigns nothing
+  Executes,      // a script: never runs, and fails where that has a value
+  Queues,        // the answers of its queue
   AsChild,       // answers what its child answers
   Inverts,       // success for failure and failure for success
   Succeeds,      // whatever its child answers
@@ -146,12 +167,162 @@ struct NodeTypeInfo {
   SetsRunning sets_running;
   std::string_view sign;  // in pictures, of nodes with several children
 };
-// Indexed by NodeType.
-std::span<const NodeTypeInfo, kNodeTypeCount> node_types();
-const NodeTypeInfo& info_of(NodeType type);
+
+namespace node_rows {
+constexpr NodeTypeInfo leaf(NodeType type, std::string_view name, In in,
+                            Flow flow, Skips skips, SetsRunning sets_running) {
+  return {type,        name,  in,           0, 0, flow, Beside::Any,
+          Ended::None, skips, sets_running, ""};
+}
+
+constexpr NodeTypeInfo decorator(NodeType type, std::string_view name, In in,
+                                 Flow flow, Skips skips,
+                                 SetsRunning sets_running) {
+  return {type,        name,  in,           1, 1, flow, Beside::Any,
+          Ended::None, skips, sets_running, ""};
+}
+
+// Indexed by NodeType. A row without one of its columns does not compile.
+inline constexpr std::array<NodeTypeInfo, kNodeTypeCount> kNodeTypes = {{
+    decorator(NodeType::BehaviorTree, "BehaviorTree", In::All, Flow::AsChild,
+              Skips::Some, SetsRunning::Never),
+    {NodeType::Sequence, "Sequence", In::All, 1, kAnyNumber, Flow::OnSuccess,
+     Beside::None, Ended::None, Skips::AllOrCounting, SetsRunning::First, "→"},
+    {NodeType::Fallback, "Fallback", In::All, 1, kAnyNumber, Flow::OnFailure,
+     Beside::None, Ended::None, Skips::AllOrCounting, SetsRunning::First, "?"},
+    {NodeType::SequenceWithMemory, "SequenceWithMemory", In::Both, 1,
+     kAnyNumber, Flow::OnSuccess, Beside::None, Ended::None,
+     Skips::AllOrCounting, SetsRunning::First, "→"},
+    {NodeType::ReactiveSequence, "ReactiveSequence", In::All, 1, kAnyNumber,
+     Flow::OnSuccess, Beside::TheLeft, Ended::None, Skips::All,
+     SetsRunning::First, "→"},
+    {NodeType::ReactiveFallback, "ReactiveFallback", In::All, 1, kAnyNumber,
+     Flow::OnFailure, Beside::TheLeft, Ended::None, Skips::All,
+     SetsRunning::First, "?"},
+    {NodeType::Parallel, "Parallel", In::Both, 1, kAnyNumber, Flow::Any,
+     Beside::Counted, Ended::None, Skips::All, SetsRunning::First, "⇉"},
+    {NodeType::ParallelAll, "ParallelAll", In::Both, 1, kAnyNumber, Flow::Any,
+     Beside::Counted, Ended::None, Skips::All, SetsRunning::First, "⇉"},
+    decorator(NodeType::Inverter, "Inverter", In::All, Flow::Inverts,
+              Skips::Some, SetsRunning::First),
+    decorator(NodeType::ForceSuccess, "ForceSuccess", In::All, Flow::Succeeds,
+              Skips::Some, SetsRunning::First),
+    decorator(NodeType::ForceFailure, "ForceFailure", In::All, Flow::Fails,
+              Skips::Some, SetsRunning::First),
+    decorator(NodeType::KeepRunningUntilFailure, "KeepRunningUntilFailure",
+              In::All, Flow::UntilFailure, Skips::Never, SetsRunning::First),
+    decorator(NodeType::Repeat, "Repeat", In::All, Flow::Repeats, Skips::Some,
+              SetsRunning::First),
+    decorator(NodeType::RetryUntilSuccessful, "RetryUntilSuccessful", In::All,
+              Flow::Retries, Skips::Some, SetsRunning::First),
+    decorator(NodeType::RateController, "RateController", In::Both,
+              Flow::AsChild, Skips::Some, SetsRunning::First),
+    {NodeType::Recovery, "Recovery", In::Both, 2, 2, Flow::Recovers,
+     Beside::None, Ended::None, Skips::First, SetsRunning::FirstMayHalt, "?"},
+    {NodeType::RoundRobin, "RoundRobin", In::Both, 1, kAnyNumber, Flow::Any,
+     Beside::None, Ended::All, Skips::All, SetsRunning::FirstMayHalt, "↻"},
+    {NodeType::PipelineSequence, "PipelineSequence", In::Both, 1, kAnyNumber,
+     Flow::OnSuccess, Beside::TheLeft, Ended::All, Skips::All,
+     SetsRunning::Never, "→"},
+    decorator(NodeType::SubTree, "SubTree", In::All, Flow::AsChild, Skips::Some,
+              SetsRunning::FromIdle),
+    leaf(NodeType::Action, "Action", In::All, Flow::AsContract,
+         Skips::AsContract, SetsRunning::AsProgrammed),
+    leaf(NodeType::Condition, "Condition", In::All, Flow::AsContract,
+         Skips::AsContract, SetsRunning::AsProgrammed),
+    leaf(NodeType::SetSV, "SetSV", In::Btf, Flow::NeverFails, Skips::Never,
+         SetsRunning::Never),
+    leaf(NodeType::Eval, "Eval", In::Btf, Flow::Evaluates, Skips::Never,
+         SetsRunning::Never),
+    leaf(NodeType::Wait, "Wait", In::All, Flow::NeverFails, Skips::Never,
+         SetsRunning::Never),
+    {NodeType::AsyncSequence, "AsyncSequence", In::Btcpp, 1, kAnyNumber,
+     Flow::OnSuccess, Beside::None, Ended::None, Skips::AllOrCounting,
+     SetsRunning::First, "→"},
+    {NodeType::AsyncFallback, "AsyncFallback", In::Btcpp, 1, kAnyNumber,
+     Flow::OnFailure, Beside::None, Ended::None, Skips::AllOrCounting,
+     SetsRunning::First, "?"},
+    {NodeType::IfThenElse, "IfThenElse", In::Btcpp, 2, 3, Flow::Chooses,
+     Beside::None, Ended::FirstOfTwo, Skips::SomeBranch, SetsRunning::First,
+     "◇"},
+    {NodeType::WhileDoElse, "WhileDoElse", In::Btcpp, 2, 3, Flow::Chooses,
+     Beside::TheLeft, Ended::First, Skips::SomeBranch, SetsRunning::First, "◇"},
+    {NodeType::Switch, "Switch", In::Btcpp, 1, kAnyNumber, Flow::Cases,
+     Beside::Any, Ended::None, Skips::Some, SetsRunning::Never, "◇"},
+    {NodeType::TryCatch, "TryCatch", In::Btcpp, 2, kAnyNumber, Flow::Tries,
+     Beside::None, Ended::None, Skips::AllTried, SetsRunning::First, "?"},
+    {NodeType::NonblockingSequence, "NonblockingSequence", In::Btcpp, 1,
+     kAnyNumber, Flow::Any, Beside::Any, Ended::All, Skips::Never,
+     SetsRunning::Never, "⇉"},
+    {NodeType::PersistentSequence, "PersistentSequence", In::Btcpp, 1,
+     kAnyNumber, Flow::Any, Beside::Any, Ended::All, Skips::Never,
+     SetsRunning::First, "→"},
+    {NodeType::PauseResumeController, "PauseResumeController", In::Btcpp, 1, 4,
+     Flow::Any, Beside::Any, Ended::All, Skips::Never, SetsRunning::First, "◇"},
+    {NodeType::OtherControl, "Control", In::Btcpp, 1, kAnyNumber, Flow::Any,
+     Beside::Any, Ended::All, Skips::Never, SetsRunning::AsProgrammed, ""},
+    decorator(NodeType::Precondition, "Precondition", In::Btcpp, Flow::Any,
+              Skips::SomeOrOtherwise, SetsRunning::Never),
+    decorator(NodeType::Timeout, "Timeout", In::All, Flow::Any, Skips::Some,
+              SetsRunning::First),
+    decorator(NodeType::Delay, "Delay", In::Btcpp, Flow::AsChild, Skips::Some,
+              SetsRunning::First),
+    decorator(NodeType::RunOnce, "RunOnce", In::Xml, Flow::AsChild,
+              Skips::SomeOrOption, SetsRunning::WithChild),
+    decorator(NodeType::Loop, "Loop", In::Btcpp, Flow::Any,
+              Skips::SomeOrOtherwise, SetsRunning::WithChildFromIdle),
+    decorator(NodeType::WhenUpdated, "WhenUpdated", In::Btcpp, Flow::Any,
+              Skips::SomeOrOtherwise, SetsRunning::Never),
+    decorator(NodeType::WhenDue, "WhenDue", In::Btcpp, Flow::Any, Skips::Some,
+              SetsRunning::WithChild),
+    decorator(NodeType::GoalUpdater, "GoalUpdater", In::Btcpp, Flow::AsChild,
+              Skips::Some, SetsRunning::Never),
+    decorator(NodeType::PathLongerOnApproach, "PathLongerOnApproach", In::Btcpp,
+              Flow::Any, Skips::Some, SetsRunning::First),
+    decorator(NodeType::SingleTrigger, "SingleTrigger", In::Btcpp, Flow::Any,
+              Skips::Some, SetsRunning::First),
+    decorator(NodeType::BlackboardCheck, "BlackboardCheck", In::Btcpp,
+              Flow::Any, Skips::SomeOrOtherwise, SetsRunning::First),
+    decorator(NodeType::OtherDecorator, "Decorator", In::Btcpp, Flow::Any,
+              Skips::Never, SetsRunning::AsProgrammed),
+    leaf(NodeType::Script, "Script", In::Btcpp, Flow::Executes, Skips::Never,
+         SetsRunning::Never),
+    {NodeType::PolicyParallel, "PolicyParallel", In::PyTrees, 1, kAnyNumber,
+     Flow::Any, Beside::Any, Ended::All, Skips::Never, SetsRunning::Never, "⇉"},
+    {NodeType::EternalGuard, "EternalGuard", In::PyTrees, 2, 2, Flow::OnSuccess,
+     Beside::TheLeft, Ended::All, Skips::Never, SetsRunning::Never, "◇"},
+    decorator(NodeType::AnswerMap, "AnswerMap", In::PyTrees, Flow::Maps,
+              Skips::Never, SetsRunning::Never),
+    leaf(NodeType::AnswerQueue, "AnswerQueue", In::PyTrees, Flow::Queues,
+         Skips::Never, SetsRunning::Never),
+}};
+
+static_assert(is_indexed(kNodeTypes, &NodeTypeInfo::type));
+static_assert(is_unique(kNodeTypes, &NodeTypeInfo::name));
+}  // namespace node_rows
+
+using node_rows::kNodeTypes;
+
+constexpr const NodeTypeInfo& info_of(NodeType type) {
+  return kNodeTypes[static_cast<std::size_t>(type)];
+}
+constexpr std::string_view type_name(NodeType type) {
+  return info_of(type).name;
+}
+constexpr bool is_leaf(NodeType type) {
+  return info_of(type).max_children == 0;
+}
+
 // The types that .btf files have.
-const std::vector<NodeTypeInfo>& btf_node_types();
-std::string_view type_name(NodeType type);
-bool is_leaf(NodeType type);
+inline const std::vector<NodeTypeInfo>& btf_node_types() {
+  static const std::vector<NodeTypeInfo> found = [] {
+    std::vector<NodeTypeInfo> types;
+    for (const NodeTypeInfo& info : kNodeTypes) {
+      if (has(info.in, In::Btf)) types.push_back(info);
+    }
+    return types;
+  }();
+  return found;
+}
 
 }  // namespace btcheck

@@ -19,6 +19,7 @@
 #include "model/tree/scale.hpp"
 #include "text/diagnostic.hpp"
 #include "text/input_file.hpp"
+#include "text/tables.hpp"
 
 namespace btcheck {
 
@@ -76,36 +77,39 @@ enum class Profile : std::uint8_t {
 // release its last patch, of a branch of Nav2 the one in its ROS distribution.
 // 0 for those that stand on none.
 struct ProfileRow {
+  Profile profile{};
   std::string_view name;
   int release = 0;
 };
-inline constexpr std::array<ProfileRow, 26> kProfiles = {
-    {{"paper", 0},
-     {"btcpp-3.5.1", 30501},
-     {"btcpp-3.5", 30506},
-     {"btcpp-3.6", 30601},
-     {"btcpp-3.7", 30700},
-     {"btcpp-3.8", 30808},
-     {"btcpp-4.0", 40002},
-     {"btcpp-4.1", 40101},
-     {"btcpp-4.2", 40201},
-     {"btcpp-4.3", 40308},
-     {"btcpp-4.4", 40403},
-     {"btcpp-4.5", 40502},
-     {"btcpp-4.6", 40602},
-     {"btcpp-4.7", 40703},
-     {"btcpp-4.8", 40804},
-     {"btcpp-4.9", 40901},
-     {"btcpp-4.10", 41000},
-     {"btcpp-4", 41000},
-     {"py_trees", 0},
-     {"nav2-galactic", 30600},
-     {"nav2-humble", 30807},
-     {"nav2-iron", 30807},
-     {"nav2-jazzy", 40901},
-     {"nav2-kilted", 40900},
-     {"nav2-lyrical", 41000},
-     {"nav2-main", 41000}}};
+inline constexpr std::array kProfiles = {
+    ProfileRow{Profile::Paper, "paper", 0},
+    ProfileRow{Profile::Btcpp351, "btcpp-3.5.1", 30501},
+    ProfileRow{Profile::Btcpp35, "btcpp-3.5", 30506},
+    ProfileRow{Profile::Btcpp36, "btcpp-3.6", 30601},
+    ProfileRow{Profile::Btcpp37, "btcpp-3.7", 30700},
+    ProfileRow{Profile::Btcpp38, "btcpp-3.8", 30808},
+    ProfileRow{Profile::Btcpp40, "btcpp-4.0", 40002},
+    ProfileRow{Profile::Btcpp41, "btcpp-4.1", 40101},
+    ProfileRow{Profile::Btcpp42, "btcpp-4.2", 40201},
+    ProfileRow{Profile::Btcpp43, "btcpp-4.3", 40308},
+    ProfileRow{Profile::Btcpp44, "btcpp-4.4", 40403},
+    ProfileRow{Profile::Btcpp45, "btcpp-4.5", 40502},
+    ProfileRow{Profile::Btcpp46, "btcpp-4.6", 40602},
+    ProfileRow{Profile::Btcpp47, "btcpp-4.7", 40703},
+    ProfileRow{Profile::Btcpp48, "btcpp-4.8", 40804},
+    ProfileRow{Profile::Btcpp49, "btcpp-4.9", 40901},
+    ProfileRow{Profile::Btcpp410, "btcpp-4.10", 41000},
+    ProfileRow{Profile::Btcpp4, "btcpp-4", 41000},
+    ProfileRow{Profile::PyTrees, "py_trees", 0},
+    ProfileRow{Profile::Nav2Galactic, "nav2-galactic", 30600},
+    ProfileRow{Profile::Nav2Humble, "nav2-humble", 30807},
+    ProfileRow{Profile::Nav2Iron, "nav2-iron", 30807},
+    ProfileRow{Profile::Nav2Jazzy, "nav2-jazzy", 40901},
+    ProfileRow{Profile::Nav2Kilted, "nav2-kilted", 40900},
+    ProfileRow{Profile::Nav2Lyrical, "nav2-lyrical", 41000},
+    ProfileRow{Profile::Nav2Main, "nav2-main", 41000}};
+static_assert(is_indexed(kProfiles, &ProfileRow::profile) &&
+              kProfiles.back().profile == Profile::Nav2Main);
 
 constexpr const ProfileRow& row_of(Profile profile) {
   return kProfiles[static_cast<std::size_t>(profile)];

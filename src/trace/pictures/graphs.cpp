@@ -159,9 +159,9 @@ std::vector<std::string> node_labels(const RecordedRun& run) {
     if (bearers[node.name] > 1) label += fmt::format("@{}", node.line);
     if (!children[n].empty()) {
       const auto known =
-          std::ranges::find(node_types(), node.type, &NodeTypeInfo::name);
+          std::ranges::find(kNodeTypes, node.type, &NodeTypeInfo::name);
       if (!says_type) label += fmt::format(" ({})", type);
-      if (known != node_types().end() && !known->sign.empty()) {
+      if (known != kNodeTypes.end() && !known->sign.empty()) {
         label = fmt::format("{} {}", known->sign, label);
       }
     }

@@ -39,7 +39,7 @@ std::string joined(const std::array<std::string_view, N>& parts) {
 // The signs of the node types, as the viewer's scripts know them.
 std::string control_signs() {
   std::string text;
-  for (const NodeTypeInfo& type : node_types()) {
+  for (const NodeTypeInfo& type : kNodeTypes) {
     if (type.sign.empty()) continue;
     text += fmt::format("{}{}: \"{}\"", text.empty() ? "" : ", ", type.name,
                         type.sign);

@@ -30,7 +30,7 @@ constexpr int kElsewhere = static_cast<int>(kFrameLocations.size()) - 1;
 constexpr int kGreatest = 1'000'000'000;
 
 NodeType type_named(std::string_view name) {
-  for (const NodeTypeInfo& info : node_types()) {
+  for (const NodeTypeInfo& info : kNodeTypes) {
     if (info.name == name) return info.type;
   }
   return NodeType::OtherControl;

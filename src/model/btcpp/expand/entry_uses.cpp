@@ -97,7 +97,8 @@ class UseGathering {
   }
 
   void add_port(const BtcppAttribute& port) {
-    if (node().id == "SetBlackboard" && port.name == "output_key") {
+    const KeyedEntry keyed = keyed_by(document().release, node().id);
+    if (keyed == KeyedEntry::IsSet && port.name == "output_key") {
       return add_set_key(port);
     }
     const auto facts = facts_of(document(), node(), port.name);
@@ -110,7 +111,7 @@ class UseGathering {
     const bool is_written = facts && facts->direction == BtcppDirection::Output;
     if (is_written && releases::kOutputsNameEntries.has(document().engine())) {
       add_key(port.name, port.value, port.place, facts);
-    } else if (node().id == "UnsetBlackboard" && port.name == "key") {
+    } else if (keyed == KeyedEntry::IsUnset && port.name == "key") {
       mention(port.value, port.place);
     } else if (known_type(document().release, node().id) == nullptr) {
       add_names_inside(port);

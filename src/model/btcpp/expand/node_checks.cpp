@@ -161,7 +161,8 @@ class NodeCheck {
   // The value of `output_key` is the name of the entry, not the entry; older
   // releases write the entry, but look first what it says.
   void check_set_key(const BtcppAttribute& port) {
-    if (node_.id != "SetBlackboard" || port.name != "output_key") return;
+    const KeyedEntry keyed = keyed_by(document_.release, node_.id);
+    if (keyed != KeyedEntry::IsSet || port.name != "output_key") return;
     const std::string key(
         *remapped_key(document_.engine(), port.name, port.value));
     const bool writes_it = releases::copies_text(document_.engine());
@@ -279,15 +280,15 @@ class NodeCheck {
 
   void check_thresholds() {
     const auto count = static_cast<long long>(node_.children.size());
-    for (const std::string_view name :
-         {"success_count", "failure_count", "success_threshold",
-          "failure_threshold", "threshold"}) {
-      if (node_.id == "Parallel") check_threshold(name, count);
+    const NodeTypeRow* type = builtin_type(document_.release, node_.id);
+    if (type == nullptr) return;
+    for (const PortRow& row : type->ports) {
+      if (row.is_threshold) check_threshold(*type, row.name, count);
     }
-    if (node_.id == "ParallelAll") check_threshold("max_failures", count);
   }
 
-  void check_threshold(std::string_view name, long long count) {
+  void check_threshold(const NodeTypeRow& type, std::string_view name,
+                       long long count) {
     const BtcppAttribute* port = find_attribute(node_.ports, name);
     if (port == nullptr || remapped_key(document_.engine(), name, port->value))
       return;
@@ -312,7 +313,7 @@ class NodeCheck {
       findings_.warning(
           port->place,
           {"BT1631", fmt::format("`{}` is {}", name, *value),
-           node_.id != "Parallel" ? "the node always fails"
+           type.type != NodeType::Parallel ? "the node always fails"
            : releases::parallel_counts_anew(document_.engine())
                ? "no number of children is that small: nothing comes of it"
                : "the node decides after its first child",

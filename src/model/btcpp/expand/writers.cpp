@@ -42,12 +42,6 @@ EntryType type_of_port(PortType type) {
   return EntryType::Other;
 }
 
-bool is_of_type(const BtcppExpansion& expansion, const BtcppInstance& node,
-                std::string_view id) {
-  return node.node->id == id &&
-         builtin_type(expansion.document->release, id) != nullptr;
-}
-
 // The key that a port names without braces, or nullptr.
 const std::string* plain_key(const BtcppExpansion& expansion,
                              const BtcppInstance& node, std::string_view port) {
@@ -149,8 +143,10 @@ class WriterGathering {
   }
 
   void add_node(const BtcppInstance& node) {
-    const bool sets = is_of_type(expansion_, node, "SetBlackboard");
-    const bool unsets = is_of_type(expansion_, node, "UnsetBlackboard");
+    const KeyedEntry keyed =
+        keyed_by(expansion_.document->release, node.node->id);
+    const bool sets = keyed == KeyedEntry::IsSet;
+    const bool unsets = keyed == KeyedEntry::IsUnset;
     for (const auto& port : node.node->ports) {
       add_port(node, port, !sets && !unsets);
     }

@@ -16,10 +16,8 @@
 #include "model/btcpp/tree/entry_uses.hpp"
 #include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/btcpp/tree/node_scripts.hpp"
-#include "model/btcpp/tree/py_trees_ports.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree/granted.hpp"
-#include "model/tree/node_types.hpp"
 #include "model/tree/releases.hpp"
 #include "text/budget.hpp"
 #include "text/numbers.hpp"
@@ -27,35 +25,6 @@
 namespace btcheck {
 namespace btcpp {
 namespace {
-
-// What a node decides by something that is not modelled, so that every decision
-// is allowed. "" for types that are modelled exactly.
-std::string_view left_open(const Node& node) {
-  switch (node.type) {
-    case NodeType::PersistentSequence:
-      return "its index, which an entry holds, may be any in each tick";
-    case NodeType::PauseResumeController:
-      return "it may be asked to pause and to resume before each tick";
-    case NodeType::WhenDue:
-      return "its child may be due in each tick";
-    case NodeType::PathLongerOnApproach:
-      return "the path may have become longer in each tick";
-    case NodeType::GoalUpdater:
-      return "what it writes is not known";
-    case NodeType::WhenUpdated:
-      return "the entry may have been written before each tick";
-    case NodeType::Loop:
-      return node.repetitions == kOpenRounds
-                 ? "its queue, which an entry holds, may be empty in each tick"
-                 : "";
-    case NodeType::Action:
-      return node.id == "WasEntryUpdated"
-                 ? "the entry may have been written before each tick"
-                 : "";
-    default:
-      return "";
-  }
-}
 
 // ControllerSelector and its like fail only where nothing has been selected and
 // no default is written
@@ -88,7 +57,7 @@ LeafContract leaf_contract(BtcppRelease release, const BtcppNode& leaf) {
   return contract;
 }
 
-class Conversion {
+class Conversion final : PortReader {
  public:
   Conversion(const BtcppExpansion& expansion, const EngineOptions& options)
       : expansion_(expansion),
@@ -127,6 +96,14 @@ class Conversion {
   }
 
  private:
+  void refuse(const BtcppPlace& place, Wording finding) override {
+    findings_.error(place, std::move(finding));
+  }
+
+  void refuse_unmodelled(std::string_view port, std::string message) override {
+    refuse_unmodelled(place_of(port), std::move(message));
+  }
+
   void refuse_unmodelled(const BtcppPlace& place, std::string message) {
     findings_.error(
         place, {"BT1655", std::move(message),
@@ -207,13 +184,13 @@ class Conversion {
   }
 
   // Once for each type.
-  void tell_left_open(const Node& node) {
-    const std::string_view what = left_open(node);
-    if (what.empty() || !told_open_.insert(node.id).second) return;
+  void leave_open(std::string_view why) override {
+    const std::string& type = element().id;
+    if (!told_open_.insert(type).second) return;
     findings_.note(
-        {node.included, node.span},
-        {"BT1641", fmt::format("{} is not modelled exactly: {}", node.id, what),
-         "", "every way is checked"});
+        element().place,
+        {"BT1641", fmt::format("{} is not modelled exactly: {}", type, why), "",
+         "every way is checked"});
   }
 
   void add_root() {
@@ -263,18 +240,18 @@ class Conversion {
     node.is_guessed =
         element.children.empty() && !element.is_known && !element.is_explicit;
     set_ports(node);
-    tell_left_open(node);
     rules_.apply(instance, scripts_, node);
     scripts_.add_port_writes(instance, node.contract);
     rules_.check_ports(instance, scripts_);
     tree_.nodes.push_back(std::move(node));
   }
 
-  const BtcppNode& element() const { return *at_->node; }
+  Profile profile() const override { return options_.profile; }
+  const BtcppNode& element() const override { return *at_->node; }
   bool is_of_py_trees() const {
     return expansion_.document->release == BtcppRelease::PyTrees;
   }
-  std::vector<const BtcppNode*> child_elements() const {
+  std::vector<const BtcppNode*> children() const override {
     std::vector<const BtcppNode*> children;
     for (const std::uint32_t child : at_->children) {
       children.push_back(expansion_.nodes[child].node);
@@ -286,8 +263,16 @@ class Conversion {
     return scripts_.script(role, at_->subtree, code);
   }
 
-  // A port's value: written, or the default of its model.
-  std::optional<std::string> port(std::string_view name) const {
+  Script condition(std::string_view port) override {
+    return script(ScriptRole::Condition, text(port));
+  }
+  Script action(std::string_view port) override {
+    return script(ScriptRole::Action, text(port));
+  }
+  Script set_blackboard() override { return scripts_.set_blackboard(*at_); }
+  Script unset_blackboard() override { return scripts_.unset_blackboard(*at_); }
+
+  std::optional<std::string> port(std::string_view name) const override {
     if (const auto* written = find_attribute(element().ports, name)) {
       return written->value;
     }
@@ -299,12 +284,8 @@ class Conversion {
     return std::nullopt;
   }
 
-  std::string text(std::string_view name) const {
-    return port(name).value_or("");
-  }
-
   Script equality(PortComparison how, std::string_view one,
-                  std::string_view other) {
+                  std::string_view other) override {
     return scripts_.equality(at_->subtree, how, text(one), text(other));
   }
 
@@ -323,7 +304,7 @@ class Conversion {
         std::clamp<long long>(*parsed, -kAnyNumber, kAnyNumber));
   }
 
-  int known_number(std::string_view name, int otherwise) {
+  int known_number(std::string_view name, int otherwise) override {
     const auto value = number(name, otherwise);
     if (value) return *value;
     findings_.error(
@@ -338,7 +319,7 @@ class Conversion {
   }
 
   // Rounds are counted, or left open where the number is an entry.
-  int rounds(std::string_view name) {
+  int rounds(std::string_view name) override {
     const auto value = number(name, 1);
     if (!value) {
       findings_.note(place_of(name),
@@ -353,7 +334,7 @@ class Conversion {
   }
 
   // Whole ticks, at least one where there is any time at all.
-  Duration ticks(std::string_view name, double milliseconds) {
+  Duration whole_ticks(std::string_view name, double milliseconds) {
     const double ticks = std::ceil(milliseconds / options_.tick_ms - 1e-9);
     if (ticks > kMostTicks) {
       findings_.note(
@@ -367,26 +348,24 @@ class Conversion {
     return {whole, whole};
   }
 
-  Duration milliseconds(std::string_view name) { return length(name, 1); }
-
-  Duration length(std::string_view name, double unit_ms) {
+  Duration ticks(std::string_view name, double unit_ms) override {
     const auto value = port(name);
     const auto parsed = value ? as_number<double>(*value) : std::nullopt;
-    if (parsed) return ticks(name, std::max(0.0, *parsed * unit_ms));
+    if (parsed) return whole_ticks(name, std::max(0.0, *parsed * unit_ms));
     return open_ticks(name, "long", "takes");
   }
 
   // A literal was read before; what an entry holds may suit or not.
-  void read_number(Node& node, PortType type, std::string_view name) {
+  void read_at_tick(Node& node, PortType type, std::string_view name) override {
     auto reading = scripts_.reading(at_->subtree, type, name, text(name));
     if (reading) node.readings.push_back(std::move(*reading));
   }
 
-  Duration period() {
-    const auto value = port("hz");
+  Duration period(std::string_view name) override {
+    const auto value = port(name);
     const auto hz = value ? as_number<double>(*value) : std::optional(10.0);
-    if (!hz || !(*hz > 0)) return open_ticks("hz", "often", "ticks");
-    const int whole = std::max(1, ticks("hz", 1000.0 / *hz).min);
+    if (!hz || !(*hz > 0)) return open_ticks(name, "often", "ticks");
+    const int whole = std::max(1, whole_ticks(name, 1000.0 / *hz).min);
     return {whole, whole};
   }
 
@@ -399,183 +378,14 @@ class Conversion {
     return {0, kUnboundedTicks};
   }
 
-  NodeStatus status(std::string_view name, NodeStatus otherwise) const {
-    const std::string value = text(name);
-    if (value == "SUCCESS") return NodeStatus::Success;
-    if (value == "FAILURE") return NodeStatus::Failure;
-    if (value == "RUNNING") return NodeStatus::Running;
-    if (value == "SKIPPED") return NodeStatus::Skipped;
-    return otherwise;
-  }
-
-  bool flag(std::string_view name, bool otherwise) const {
-    const auto value = port(name);
-    return value ? parse_bool(*value).value_or(otherwise) : otherwise;
-  }
-
-  void set_ports_of_py_trees(Node& node) {
-    const NodeType type = node.type;
-    if (type == NodeType::Action || type == NodeType::Condition) {
+  void set_ports(Node& node) {
+    if (node.type == NodeType::Action || node.type == NodeType::Condition) {
       node.contract = leaf_contract(expansion_.document->release, element());
     }
-    if (type == NodeType::Timeout || type == NodeType::Wait) {
-      node.duration = length("duration", 1000);
-    }
-    set_py_trees_ports(element(), child_elements(), node, findings_);
-  }
-
-  void set_ports(Node& node) {
-    if (is_of_py_trees()) return set_ports_of_py_trees(node);
-    const bool is_3 = is_release_3(options_.profile);
-    switch (node.type) {
-      case NodeType::Parallel: {
-        const std::string_view successes =
-            releases::success_port(engine_release(options_.profile));
-        node.threshold = known_number(successes, -1);
-        node.counts_skipped = node.threshold < 0;
-        if (is_in(releases::kHasOneThreshold)) {
-          const auto count = static_cast<int>(element().children.size());
-          node.failure_threshold = count - node.threshold + 1;
-          break;
-        }
-        node.failure_threshold =
-            known_number(is_3 ? "failure_threshold" : "failure_count", 1);
-        break;
-      }
-      case NodeType::ParallelAll:
-        node.failure_threshold = known_number("max_failures", 1);
-        break;
-      case NodeType::Repeat:
-        node.repetitions = rounds("num_cycles");
-        read_number(node, PortType::Int, "num_cycles");
-        break;
-      case NodeType::RetryUntilSuccessful:
-        node.repetitions = rounds("num_attempts");
-        read_number(node, PortType::Int, "num_attempts");
-        break;
-      case NodeType::Recovery: {
-        // Read into an unsigned number: what does not fit is silently 1.
-        const int retries = known_number("number_of_retries", 1);
-        node.repetitions = retries < 0 ? 1 : retries;
-        break;
-      }
-      case NodeType::RoundRobin:
-        node.option =
-            wraps_round(options_.profile) || flag("wrap_around", false);
-        break;
-      case NodeType::RunOnce:
-        node.option = flag("then_skip", true);
-        break;
-      case NodeType::TryCatch:
-        node.option = flag("catch_on_halt", false);
-        break;
-      case NodeType::Timeout:
-      case NodeType::Wait:
-        node.duration = milliseconds("msec");
-        read_number(node, PortType::Unsigned, "msec");
-        break;
-      case NodeType::Delay:
-        if (is_in(releases::kDelayIsNone)) {
-          node.duration = Duration{0, 0};
-          break;
-        }
-        node.duration = milliseconds("delay_msec");
-        read_number(node, PortType::Unsigned, "delay_msec");
-        break;
-      case NodeType::RateController:
-        node.duration = period();
-        break;
-      case NodeType::WhenDue:
-        node.contract.may_fail = element().id == "DistanceController";
-        node.option = element().id == "SpeedController" &&
-                      keeps_speed_period(options_.profile);
-        break;
-      case NodeType::WhenUpdated:
-        node.otherwise = element().id == "SkipUnlessUpdated"
-                             ? NodeStatus::Skipped
-                             : NodeStatus::Running;
-        break;
-      case NodeType::Loop:
-        set_loop(node);
-        break;
-      case NodeType::Precondition:
-        node.otherwise = status("else", NodeStatus::Failure);
-        node.own_scripts = {script(ScriptRole::Condition, text("if"))};
-        break;
-      case NodeType::BlackboardCheck:
-        node.otherwise = status("return_on_mismatch", NodeStatus::Failure);
-        node.own_scripts = {
-            equality(comparison_of(element().id), "value_A", "value_B")};
-        break;
-      case NodeType::Switch:
-        for (std::size_t i = 1; i < element().children.size(); ++i) {
-          node.own_scripts.push_back(equality(switch_comparison(), "variable",
-                                              fmt::format("case_{}", i)));
-        }
-        break;
-      case NodeType::Script:
-        set_script(node);
-        break;
-      case NodeType::Action:
-      case NodeType::Condition:
-        node.contract = leaf_contract(expansion_.document->release, element());
-        break;
-      default:
-        break;
-    }
-  }
-
-  bool is_in(const Releases& releases) const {
-    return releases.has(engine_release(options_.profile));
-  }
-
-  PortComparison switch_comparison() const {
-    if (is_in(releases::kSwitchComparesTexts)) return PortComparison::Text;
-    return is_in(releases::kSwitchReadsBeginnings) ? PortComparison::OldSwitch
-                                                   : PortComparison::Switch;
-  }
-
-  PortComparison comparison_of(std::string_view check) const {
-    if (check == "BlackboardCheckInt") return PortComparison::Int;
-    if (check == "BlackboardCheckDouble") {
-      return is_in(releases::kChecksExactly) ? PortComparison::ExactDouble
-                                             : PortComparison::Double;
-    }
-    if (check == "BlackboardCheckBool") return PortComparison::Bool;
-    return PortComparison::Text;
-  }
-
-  // "1;2;3" has three elements; a queue in an entry any number.
-  void set_loop(Node& node) {
-    node.otherwise = status("if_empty", NodeStatus::Success);
-    const std::string queue = text("queue");
-    const bool is_literal = !queue.empty() && !queue.starts_with("{");
-    if (is_literal && element().id == "LoopString" &&
-        is_in(releases::kReadsNoTexts)) {
-      refuse_unmodelled(place_of("queue"),
-                        "a LoopString with a queue of its own");
-    }
-    if (queue.starts_with("{") || queue.starts_with("json:")) {
-      node.repetitions = kOpenRounds;
-      return;
-    }
-    node.repetitions =
-        queue.empty() ? 0
-                      : static_cast<int>(std::ranges::count(queue, ';') + 1);
-  }
-
-  void set_script(Node& node) {
-    const std::string code = text("code");
-    if (element().id == "SetBlackboard") {
-      node.own_scripts = {scripts_.set_blackboard(*at_)};
-    } else if (element().id == "UnsetBlackboard") {
-      node.own_scripts = {scripts_.unset_blackboard(*at_)};
-    } else if (element().id == "ScriptCondition") {
-      node.answers_value = true;
-      node.own_scripts = {script(ScriptRole::Condition, code)};
-    } else {
-      node.own_scripts = {script(ScriptRole::Action, code)};
-    }
+    const auto* row = engine_row(expansion_.document->release, element());
+    if (row == nullptr) return;
+    if (row->read != nullptr) row->read(*this, node);
+    if (!row->left_open.empty()) leave_open(row->left_open);
   }
 
   static constexpr int kMostTicks = 1000;

@@ -21,18 +21,6 @@
 
 namespace btcheck::btcpp {
 
-// How a node compares the values of two ports.
-enum class PortComparison : std::uint8_t {
-  Switch,  // of 4.10 (details::CheckStringEquality): texts, or the numbers that
-           // they are
-  OldSwitch,  // of 4.5 to 4.9: texts, or the numbers that they begin with
-  Text,       // Switch before 4.5, BlackboardCheckString
-  Int,        // BlackboardCheckInt, …: what cannot be read equals nothing
-  Double,
-  ExactDouble,  // before 3.7
-  Bool
-};
-
 // Whether two values may be equal, and whether they may differ.
 struct Equality {
   bool may_hold = false;

@@ -62,7 +62,8 @@ class Noting {
   }
 
   void note_setting() {
-    if (at_->node->id != "SetBlackboard") return;
+    const auto keyed = keyed_by(expansion_.document->release, at_->node->id);
+    if (keyed != KeyedEntry::IsSet) return;
     const auto setting = setting_of(expansion_, *at_);
     if (!setting) return;
     EntryUse& use = add(setting->entry);

@@ -3,6 +3,7 @@
 // IfThenElse, WhileDoElse, Switch and TryCatch (BehaviorTree.CPP 4.10,
 // src/controls/if_then_else_node.cpp, while_do_else_node.cpp,
 // try_catch_node.cpp, include/…/controls/switch_node.h; 3.8.8).
+#include <array>
 #include <string>
 #include <utility>
 
@@ -29,8 +30,6 @@ LocationId tick_branch(EngineBuilder& build, std::size_t child,
   }
   return build.tick(child, std::move(reactions));
 }
-
-}  // namespace
 
 // The condition is asked until it has answered; the branch then runs to its
 // end. With two children a condition that fails is not reset: a stateful one
@@ -204,6 +203,18 @@ void draw_try_catch(NodeBuilder& draw) {
   draw.edge(build.at("halt"), trying, differs(next, tries + 1));
   draw.edge(build.at("halt"), over, equals(next, tries + 1));
   build.reset(trying, build.tick(last, once, "_once"), tried);
+}
+
+}  // namespace
+
+Family branching_drawings() {
+  static constexpr auto kRows = std::to_array<Drawing>({
+      {NodeType::IfThenElse, draw_if_then_else},
+      {NodeType::WhileDoElse, draw_while_do_else},
+      {NodeType::Switch, draw_switch},
+      {NodeType::TryCatch, draw_try_catch},
+  });
+  return kRows;
 }
 
 }  // namespace btcheck::mapping

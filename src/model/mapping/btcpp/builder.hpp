@@ -186,39 +186,15 @@ class EngineBuilder {
   LocationId body_{};
 };
 
-Draw engine_drawing_of(NodeType type);
-
-// One per family.
-void draw_engine_sequence(NodeBuilder& draw);
-void draw_engine_reactive(NodeBuilder& draw);
-void draw_engine_parallel(NodeBuilder& draw);
-void draw_engine_parallel_all(NodeBuilder& draw);
-void draw_if_then_else(NodeBuilder& draw);
-void draw_while_do_else(NodeBuilder& draw);
-void draw_switch(NodeBuilder& draw);
-void draw_try_catch(NodeBuilder& draw);
-void draw_engine_decorator(NodeBuilder& draw);
-void draw_engine_repeat(NodeBuilder& draw);
-void draw_precondition(NodeBuilder& draw);
-void draw_run_once(NodeBuilder& draw);
-void draw_loop(NodeBuilder& draw);
-void draw_when_updated(NodeBuilder& draw);
-void draw_blackboard_check(NodeBuilder& draw);
-void draw_other_node(NodeBuilder& draw);
-void draw_timeout(NodeBuilder& draw);
-void draw_delay(NodeBuilder& draw);
-void draw_sleep(NodeBuilder& draw);
-void draw_engine_rate_controller(NodeBuilder& draw);
-void draw_when_due(NodeBuilder& draw);
-void draw_path_longer_on_approach(NodeBuilder& draw);
-void draw_single_trigger(NodeBuilder& draw);
-void draw_recovery_node(NodeBuilder& draw);
-void draw_engine_round_robin(NodeBuilder& draw);
-void draw_engine_pipeline(NodeBuilder& draw);
-void draw_nonblocking_sequence(NodeBuilder& draw);
-void draw_pause_resume(NodeBuilder& draw);
+// The leaves of a program, of py_trees as well.
 void draw_engine_leaf(NodeBuilder& draw);
-void draw_script(NodeBuilder& draw);
-void draw_engine_root(NodeBuilder& draw);
+
+Family engine_leaf_drawings();
+Family engine_sequence_drawings();
+Family engine_parallel_drawings();
+Family branching_drawings();
+Family engine_decorator_drawings();
+Family time_drawings();
+Family nav2_drawings();
 
 }  // namespace btcheck::mapping

@@ -3,12 +3,12 @@
 // Decorators of BehaviorTree.CPP without a clock (src/decorators and
 // include/…/decorators of 4.10 and 3.8.8). After a tick in which its child has
 // ended, the child is idle.
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "model/mapping/btcpp/builder.hpp"
-#include "model/tree/node_types.hpp"
 
 namespace btcheck::mapping {
 namespace {
@@ -25,8 +25,6 @@ LocationId answer(EngineBuilder& build, NodeStatus status) {
       return build.failure();
   }
 }
-
-}  // namespace
 
 void draw_engine_decorator(NodeBuilder& draw) {
   const NodeType type = draw.node().type;
@@ -73,7 +71,8 @@ void draw_engine_repeat(NodeBuilder& draw) {
     return;
   }
   std::optional<VariableId> done;
-  if (rounds > 1) done = draw.local("count", 0, rounds - 1, 0);
+  if (rounds > 1)
+    done = draw.local("count", 0, rounds - 1, 0, LocalRole::Rounds);
   const std::vector<Assignment> clear = set_if_there(done, 0);
 
   const LocationId next = build.at("next");
@@ -272,6 +271,29 @@ void draw_other_node(NodeBuilder& draw) {
   draw.choice(end, build.resetting("end_failure", build.failure()), {}, {},
               "answers failure");
   build.on_halt();
+}
+
+}  // namespace
+
+Family engine_decorator_drawings() {
+  static constexpr auto kRows = std::to_array<Drawing>({
+      {NodeType::Inverter, draw_engine_decorator},
+      {NodeType::ForceSuccess, draw_engine_decorator},
+      {NodeType::ForceFailure, draw_engine_decorator},
+      {NodeType::KeepRunningUntilFailure, draw_engine_decorator},
+      {NodeType::SubTree, draw_engine_decorator},
+      {NodeType::GoalUpdater, draw_engine_decorator},
+      {NodeType::Repeat, draw_engine_repeat},
+      {NodeType::RetryUntilSuccessful, draw_engine_repeat},
+      {NodeType::Precondition, draw_precondition},
+      {NodeType::RunOnce, draw_run_once},
+      {NodeType::Loop, draw_loop},
+      {NodeType::WhenUpdated, draw_when_updated},
+      {NodeType::BlackboardCheck, draw_blackboard_check},
+      {NodeType::OtherControl, draw_other_node},
+      {NodeType::OtherDecorator, draw_other_node},
+  });
+  return kRows;
 }
 
 }  // namespace btcheck::mapping

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -332,6 +333,8 @@ void draw_engine_leaf(NodeBuilder& draw) {
   draw.executes(contract.running_program, ScriptOutcomeKind::Ends);
 }
 
+namespace {
+
 // Script, ScriptCondition, SetBlackboard, UnsetBlackboard.
 void draw_script(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Silently);
@@ -393,6 +396,18 @@ void draw_engine_root(NodeBuilder& draw) {
   if (!draw.context().answers[index(draw.child(0))].skipped) return;
   ends(NodeStatus::Skipped, "skipped", loops);
   ends(NodeStatus::SkippedRunning, "skipped", loops);
+}
+
+}  // namespace
+
+Family engine_leaf_drawings() {
+  static constexpr auto kRows = std::to_array<Drawing>({
+      {NodeType::BehaviorTree, draw_engine_root},
+      {NodeType::Action, draw_engine_leaf},
+      {NodeType::Condition, draw_engine_leaf},
+      {NodeType::Script, draw_script},
+  });
+  return kRows;
 }
 
 }  // namespace btcheck::mapping

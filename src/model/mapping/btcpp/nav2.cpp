@@ -24,8 +24,6 @@ std::vector<Assignment> halted(EngineBuilder& build,
   return updates;
 }
 
-}  // namespace
-
 // Child 1 is the work, child 2 the recovery; `retry` counts the recoveries
 // done, `next` is the child to be ticked.
 void draw_recovery_node(NodeBuilder& draw) {
@@ -34,7 +32,8 @@ void draw_recovery_node(NodeBuilder& draw) {
   constexpr std::size_t kWork = 0;
   constexpr std::size_t kRecovery = 1;
   std::optional<VariableId> retry;
-  if (retries > 0) retry = draw.local("retry", 0, retries, 0);
+  if (retries > 0)
+    retry = draw.local("retry", 0, retries, 0, LocalRole::Rounds);
   const VariableId next = draw.local("next", 1, 2, 1);
   const std::vector<Assignment> fresh =
       joined({set(next, 1)}, set_if_there(retry, 0));
@@ -299,6 +298,22 @@ void draw_single_trigger(NodeBuilder& draw) {
   draw.edge(look, build.tick_only_child(std::move(reactions)), equals(done, 0));
   draw.edge(look, build.failure(), equals(done, 1));
   build.on_halt();
+}
+
+}  // namespace
+
+Family nav2_drawings() {
+  static constexpr auto kRows = std::to_array<Drawing>({
+      {NodeType::Recovery, draw_recovery_node},
+      {NodeType::RoundRobin, draw_engine_round_robin},
+      {NodeType::PipelineSequence, draw_engine_pipeline},
+      {NodeType::NonblockingSequence, draw_nonblocking_sequence},
+      {NodeType::PauseResumeController, draw_pause_resume},
+      {NodeType::WhenDue, draw_when_due},
+      {NodeType::PathLongerOnApproach, draw_path_longer_on_approach},
+      {NodeType::SingleTrigger, draw_single_trigger},
+  });
+  return kRows;
 }
 
 }  // namespace btcheck::mapping

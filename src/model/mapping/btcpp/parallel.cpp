@@ -4,6 +4,8 @@
 // parallel_all_node.cpp of 4.10; parallel_node.cpp of 3.8.8). Children are
 // ticked from left to right, except those that have ended. Whether one has
 // ended, its status says, since only the Parallel resets it.
+#include <array>
+
 #include "model/mapping/btcpp/builder.hpp"
 
 namespace btcheck::mapping {
@@ -13,8 +15,6 @@ Expression sum(VariableId one, std::optional<VariableId> other) {
   return other ? Expression::binary(Operation::Add, read(one), read(*other))
                : read(one);
 }
-
-}  // namespace
 
 void draw_engine_parallel(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
@@ -140,6 +140,16 @@ void draw_engine_parallel_all(NodeBuilder& draw) {
                 both(over, negated(fails)));
   }
   build.on_halt({set(failed, 0)});
+}
+
+}  // namespace
+
+Family engine_parallel_drawings() {
+  static constexpr auto kRows = std::to_array<Drawing>({
+      {NodeType::Parallel, draw_engine_parallel},
+      {NodeType::ParallelAll, draw_engine_parallel_all},
+  });
+  return kRows;
 }
 
 }  // namespace btcheck::mapping

@@ -7,8 +7,9 @@
 // the child whose turn it is, `skipped` the number that answered skipped. That
 // is counted only where it can reach the number of children. Some may count
 // twice, since only a node that is idle or has been halted starts from 0.
+#include <array>
+
 #include "model/mapping/btcpp/builder.hpp"
-#include "model/tree/node_types.hpp"
 
 namespace btcheck::mapping {
 namespace {
@@ -172,8 +173,6 @@ class SequenceDrawing {
   std::optional<VariableId> all_skipped_;  // in older releases: whether all
 };
 
-}  // namespace
-
 void draw_engine_sequence(NodeBuilder& draw) { SequenceDrawing(draw).draw(); }
 
 // Every tick starts at the first child. Whichever answers running, all others
@@ -262,6 +261,22 @@ void draw_engine_reactive(NodeBuilder& draw) {
     build.reset_all(end, passed);
   }
   build.on_halt();
+}
+
+}  // namespace
+
+Family engine_sequence_drawings() {
+  static constexpr auto kRows = std::to_array<Drawing>({
+      {NodeType::Sequence, draw_engine_sequence},
+      {NodeType::Fallback, draw_engine_sequence},
+      {NodeType::SequenceWithMemory, draw_engine_sequence},
+      {NodeType::AsyncSequence, draw_engine_sequence},
+      {NodeType::AsyncFallback, draw_engine_sequence},
+      {NodeType::PersistentSequence, draw_engine_sequence},
+      {NodeType::ReactiveSequence, draw_engine_reactive},
+      {NodeType::ReactiveFallback, draw_engine_reactive},
+  });
+  return kRows;
 }
 
 }  // namespace btcheck::mapping

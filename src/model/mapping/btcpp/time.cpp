@@ -4,9 +4,13 @@
 // src/decorators/timeout_node.cpp, delay_node.cpp, src/actions/sleep_node.cpp)
 // and Nav2's RateController. Their durations are whole ticks of the root; each
 // has a companion timer.
+#include <array>
+
 #include "model/mapping/btcpp/builder.hpp"
 
 namespace btcheck::mapping {
+namespace {
+
 // The timer halts the child from outside the tick; the next tick fails. Only
 // when the child completes, or the node is halted, does the timer end: a child
 // that was skipped when it was due then runs without a limit. In release 3 a
@@ -58,8 +62,6 @@ void draw_timeout(NodeBuilder& draw) {
   build.reset(halt, halted, build.all_children(), {}, negated(meets));
 }
 
-namespace {
-
 // Before 3.6 a Delay that is halted while it waits fails in the next tick.
 // Returns where the others begin.
 LocationId draw_delay_after_halt(EngineBuilder& build, const Timer& timer) {
@@ -77,8 +79,6 @@ LocationId draw_delay_after_halt(EngineBuilder& build, const Timer& timer) {
   build.reset_all(other, build.at("halted"), {timer.stop()});
   return begin;
 }
-
-}  // namespace
 
 // Running until the time is up, then the child. Only a completed child, or
 // being halted, makes the next activation wait again. Another thread measures
@@ -191,6 +191,18 @@ void draw_engine_rate_controller(NodeBuilder& draw) {
   draw.edge(again, build.success(), {}, {timer.start()});
   build.on_halt(outlives ? std::vector<Assignment>{}
                          : std::vector<Assignment>{timer.stop()});
+}
+
+}  // namespace
+
+Family time_drawings() {
+  static constexpr auto kRows = std::to_array<Drawing>({
+      {NodeType::Timeout, draw_timeout},
+      {NodeType::Delay, draw_delay},
+      {NodeType::Wait, draw_sleep},
+      {NodeType::RateController, draw_engine_rate_controller},
+  });
+  return kRows;
 }
 
 }  // namespace btcheck::mapping

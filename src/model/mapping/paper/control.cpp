@@ -4,6 +4,8 @@
 // sections 3.4, 3.5 and 3.8.1, figures 9 and 18; the listing of appendix B),
 // parallels (section 3.6, figure 19), and those that Nav2 adds (sections 5.2.1
 // and 5.2.2).
+#include <array>
+
 #include "model/mapping/paper/drawings.hpp"
 
 namespace btcheck::mapping {
@@ -27,8 +29,6 @@ Row row_of(bool is_fallback) {
 
 // The number of a child as drawings count them, from 1.
 int number_of(std::size_t child) { return static_cast<int>(child) + 1; }
-
-}  // namespace
 
 // Sequence, SequenceWithMemory and Fallback are one automaton; memory is in
 // what the local `next_seq` becomes when a child stops the row.
@@ -61,8 +61,6 @@ void draw_sequence(NodeBuilder& draw) {
                          : std::vector{set(next, 1)});
 }
 
-namespace {
-
 // With :wait the decision is kept in the local `deciding`; while it is 1 a
 // tick only goes to the children that still run.
 void draw_waiting(NodeBuilder& draw, LocationId from, VariableId deciding,
@@ -86,8 +84,6 @@ void draw_waiting(NodeBuilder& draw, LocationId from, VariableId deciding,
   draw.edge(end, draw.at("running"), draw.some_child_runs());
   draw.edge(end, decided, negated(draw.some_child_runs()), {set(deciding, 0)});
 }
-
-}  // namespace
 
 // ReactiveSequence and ReactiveFallback: every tick starts at the first child.
 // When a child decides, children to its right may still be running from an
@@ -126,8 +122,6 @@ void draw_reactive(NodeBuilder& draw) {
   }
   draw.on_halt(std::move(on_halt));
 }
-
-namespace {
 
 Expression count_of(NodeBuilder& draw, NodeStatus status) {
   Expression sum = equals(draw.status(0), status);
@@ -182,8 +176,6 @@ void draw_decision(NodeBuilder& draw, LocationId counting, Expression decided,
   draw.edge(counting, result, std::move(decided), {set(active, 0)});
 }
 
-}  // namespace
-
 // Parallel and ParallelAll: all children that have not finished in this
 // activation are called in one step and then run interleaved. When all have
 // given control back their answers are counted: at least m successes decide for
@@ -220,7 +212,7 @@ void draw_recovery(NodeBuilder& draw) {
   constexpr std::size_t kRecovery = 1;
 
   draw.frame();
-  VariableId retry = draw.local("retry", 0, retries, 0);
+  VariableId retry = draw.local("retry", 0, retries, 0, LocalRole::Rounds);
   VariableId next = draw.local("next", 1, 2, 1);
   std::vector<Assignment> reset = {set(retry, 0), set(next, 1)};
   LocationId from = draw.decide();
@@ -297,6 +289,24 @@ void draw_pipeline_sequence(NodeBuilder& draw) {
                    negated(is_furthest));
   }
   draw.on_halt({set(furthest, 1)});
+}
+
+}  // namespace
+
+Family control_drawings() {
+  static constexpr auto kRows = std::to_array<Drawing>({
+      {NodeType::Sequence, draw_sequence},
+      {NodeType::Fallback, draw_sequence},
+      {NodeType::SequenceWithMemory, draw_sequence},
+      {NodeType::ReactiveSequence, draw_reactive},
+      {NodeType::ReactiveFallback, draw_reactive},
+      {NodeType::Parallel, draw_parallel},
+      {NodeType::ParallelAll, draw_parallel},
+      {NodeType::Recovery, draw_recovery},
+      {NodeType::RoundRobin, draw_round_robin},
+      {NodeType::PipelineSequence, draw_pipeline_sequence},
+  });
+  return kRows;
 }
 
 }  // namespace btcheck::mapping

@@ -4,39 +4,20 @@
 // it (paper, section 3.7, figure 10), and the root, which makes the ticks
 // (section 3.8.2). Decorators always pass running on; halting one halts the
 // child if it runs and clears the counter. SubTree passes everything on.
+#include <array>
+
 #include "model/mapping/paper/drawings.hpp"
 
 namespace btcheck::mapping {
 namespace {
 
-struct Answers {
-  std::string_view on_success;
-  std::string_view on_failure;
-};
-
-Answers answers_of(NodeType type) {
-  switch (type) {
-    case NodeType::Inverter:
-      return {"failure", "success"};
-    case NodeType::ForceSuccess:
-      return {"success", "success"};
-    case NodeType::ForceFailure:
-      return {"failure", "failure"};
-    case NodeType::KeepRunningUntilFailure:
-      return {"running", "failure"};
-    default:  // SubTree
-      return {"success", "failure"};
-  }
-}
-
-}  // namespace
-
-void draw_decorator(NodeBuilder& draw) {
-  Answers answers = answers_of(draw.node().type);
+// Its answers to what its child may answer.
+void draw_decorator(NodeBuilder& draw, std::string_view on_success,
+                    std::string_view on_failure) {
   draw.frame();
   draw.edge(draw.decide(), draw.call(0));
-  draw.on_answer(0, NodeStatus::Success, draw.at(answers.on_success));
-  draw.on_answer(0, NodeStatus::Failure, draw.at(answers.on_failure));
+  draw.on_answer(0, NodeStatus::Success, draw.at(on_success));
+  draw.on_answer(0, NodeStatus::Failure, draw.at(on_failure));
   draw.on_answer(0, NodeStatus::Running, draw.at("running"));
   draw.on_halt();
 }
@@ -50,7 +31,7 @@ void draw_counting_decorator(NodeBuilder& draw) {
   const int rounds = draw.node().repetitions;
 
   draw.frame();
-  VariableId count = draw.local("count", 0, rounds - 1, 0);
+  VariableId count = draw.local("count", 0, rounds - 1, 0, LocalRole::Rounds);
   draw.edge(draw.decide(), draw.call(0));
   for (int done = 0; done + 1 < rounds; ++done) {
     draw.on_answer(0, again, draw.call(0), {set(count, done + 1)},
@@ -122,6 +103,29 @@ void draw_root(NodeBuilder& draw) {
   ends(NodeStatus::Running, true);
   ends(NodeStatus::Success, draw.node().loop);
   ends(NodeStatus::Failure, draw.node().loop);
+}
+
+}  // namespace
+
+Family decorator_drawings() {
+  static constexpr auto kRows = std::to_array<Drawing>({
+      {NodeType::BehaviorTree, draw_root},
+      {NodeType::Inverter,
+       [](NodeBuilder& draw) { draw_decorator(draw, "failure", "success"); }},
+      {NodeType::ForceSuccess,
+       [](NodeBuilder& draw) { draw_decorator(draw, "success", "success"); }},
+      {NodeType::ForceFailure,
+       [](NodeBuilder& draw) { draw_decorator(draw, "failure", "failure"); }},
+      {NodeType::KeepRunningUntilFailure,
+       [](NodeBuilder& draw) { draw_decorator(draw, "running", "failure"); }},
+      {NodeType::Repeat, draw_counting_decorator},
+      {NodeType::RetryUntilSuccessful, draw_counting_decorator},
+      {NodeType::RateController, draw_rate_controller},
+      {NodeType::SubTree,
+       [](NodeBuilder& draw) { draw_decorator(draw, "success", "failure"); }},
+      {NodeType::Timeout, draw_time_limit},
+  });
+  return kRows;
 }
 
 }  // namespace btcheck::mapping

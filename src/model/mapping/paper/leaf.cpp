@@ -5,6 +5,7 @@
 // contract allows can happen each time it is ticked. A leaf with a :duration
 // has a companion timer; until it is due the leaf answers running.
 #include <algorithm>
+#include <array>
 
 #include "model/mapping/paper/drawings.hpp"
 
@@ -170,8 +171,6 @@ void draw_with_timer(NodeBuilder& draw, Results results) {
   draw.edge(draw.at("halt"), draw.at("halted"), {}, {timer.stop()});
 }
 
-}  // namespace
-
 void draw_action(NodeBuilder& draw) {
   if (draw.takes_time()) {
     draw.frame();
@@ -246,6 +245,19 @@ void draw_wait(NodeBuilder& draw) {
                             std::vector<Assignment> reset) {
     draw.edge(look, draw.at("success"), std::move(due), std::move(reset));
   });
+}
+
+}  // namespace
+
+Family leaf_drawings() {
+  static constexpr auto kRows = std::to_array<Drawing>({
+      {NodeType::Action, draw_action},
+      {NodeType::Condition, draw_condition},
+      {NodeType::SetSV, draw_set_state_variable},
+      {NodeType::Eval, draw_eval},
+      {NodeType::Wait, draw_wait},
+  });
+  return kRows;
 }
 
 }  // namespace btcheck::mapping

@@ -2,13 +2,14 @@
 //
 // Sequence, Selector, Parallel and EternalGuard of py_trees. Whether the node
 // begins anew says its own status before the tick: it does unless it runs.
+#include <array>
 #include <string>
 #include <utility>
 
 #include "model/mapping/py_trees/drawings.hpp"
-#include "model/tree/node_types.hpp"
 
 namespace btcheck::mapping {
+namespace {
 
 // Beginning anew it stops all children. A child that does not succeed ends the
 // tick; without memory all children behind it are stopped then.
@@ -79,8 +80,6 @@ void draw_py_trees_selector(NodeBuilder& draw) {
   build.on_stop();
 }
 
-namespace {
-
 // What its policy asks for.
 Expression is_met(const PyTreesBuilder& build) {
   const Node& node = build.node();
@@ -95,8 +94,6 @@ Expression is_met(const PyTreesBuilder& build) {
   }
   return met;
 }
-
-}  // namespace
 
 // Beginning anew it stops all children. All are ticked, those that have
 // succeeded only where it is not synchronised; then it decides, and when it
@@ -146,6 +143,20 @@ void draw_py_trees_guard(NodeBuilder& draw) {
             build.tick(0, {.success = {{guarded}}, .failure = {{refused}}}));
   build.halt(refused, build.failure(), {1});
   build.on_stop();
+}
+
+}  // namespace
+
+Family py_trees_composite_drawings() {
+  static constexpr auto kRows = std::to_array<Drawing>({
+      {NodeType::Sequence, draw_py_trees_sequence},
+      {NodeType::ReactiveSequence, draw_py_trees_sequence},
+      {NodeType::Fallback, draw_py_trees_selector},
+      {NodeType::ReactiveFallback, draw_py_trees_selector},
+      {NodeType::PolicyParallel, draw_py_trees_parallel},
+      {NodeType::EternalGuard, draw_py_trees_guard},
+  });
+  return kRows;
 }
 
 }  // namespace btcheck::mapping

@@ -2,35 +2,14 @@
 //
 // Decorators of py_trees. Each ticks its child first; when it ends while its
 // child runs, it stops that. A child that has ended keeps its status.
+#include <array>
 #include <optional>
 #include <utility>
 
 #include "model/mapping/py_trees/drawings.hpp"
-#include "model/tree/node_types.hpp"
 
 namespace btcheck::mapping {
 namespace {
-
-AnswerTable table_of(const Node& node) {
-  AnswerTable becomes = node.becomes;
-  switch (node.type) {
-    case NodeType::Inverter:
-      std::swap(becomes.of_success, becomes.of_failure);
-      break;
-    case NodeType::ForceSuccess:
-      becomes.of_failure = NodeStatus::Success;
-      break;
-    case NodeType::ForceFailure:
-      becomes.of_success = NodeStatus::Failure;
-      break;
-    case NodeType::KeepRunningUntilFailure:
-      becomes.of_success = NodeStatus::Running;
-      break;
-    default:
-      break;  // its own, which a SubTree leaves as it is
-  }
-  return becomes;
-}
 
 // Stops its child, which runs, and answers.
 LocationId stopping(PyTreesBuilder& build, LocationId answer,
@@ -40,11 +19,9 @@ LocationId stopping(PyTreesBuilder& build, LocationId answer,
   });
 }
 
-}  // namespace
-
-void draw_py_trees_map(NodeBuilder& draw) {
+// Answers as the table says, by what its child answers.
+void draw_map(NodeBuilder& draw, const AnswerTable& becomes) {
   PyTreesBuilder build(draw);
-  const AnswerTable becomes = table_of(draw.node());
   const LocationId of_running = build.answering(becomes.of_running);
   draw.edge(
       build.body(),
@@ -63,7 +40,8 @@ void draw_py_trees_rounds(NodeBuilder& draw) {
   const int rounds = draw.node().repetitions;
   const LocationId over = repeats ? build.success() : build.failure();
   std::optional<VariableId> done;
-  if (rounds > 1) done = draw.local("count", 0, rounds - 1, 0);
+  if (rounds > 1)
+    done = draw.local("count", 0, rounds - 1, 0, LocalRole::Rounds);
   const std::vector<Assignment> clear = set_if_there(done, 0);
   std::vector<Reaction> counted = {{rounds < 0 ? build.running() : over}};
   if (done) {
@@ -127,6 +105,38 @@ void draw_py_trees_timeout(NodeBuilder& draw) {
     draw.edge(build.body(), calling);
   }
   build.on_stop(ends);
+}
+
+}  // namespace
+
+Family py_trees_decorator_drawings() {
+  using enum NodeStatus;
+  static constexpr auto kRows = std::to_array<Drawing>({
+      {NodeType::Inverter,
+       [](NodeBuilder& draw) {
+         draw_map(draw, {Failure, Success});
+       }},
+      {NodeType::ForceSuccess,
+       [](NodeBuilder& draw) {
+         draw_map(draw, {Success, Success});
+       }},
+      {NodeType::ForceFailure,
+       [](NodeBuilder& draw) {
+         draw_map(draw, {Failure, Failure});
+       }},
+      {NodeType::KeepRunningUntilFailure,
+       [](NodeBuilder& draw) {
+         draw_map(draw, {Running, Failure});
+       }},
+      {NodeType::SubTree, [](NodeBuilder& draw) { draw_map(draw, {}); }},
+      {NodeType::AnswerMap,
+       [](NodeBuilder& draw) { draw_map(draw, draw.node().becomes); }},
+      {NodeType::Repeat, draw_py_trees_rounds},
+      {NodeType::RetryUntilSuccessful, draw_py_trees_rounds},
+      {NodeType::RunOnce, draw_py_trees_one_shot},
+      {NodeType::Timeout, draw_py_trees_timeout},
+  });
+  return kRows;
 }
 
 }  // namespace btcheck::mapping

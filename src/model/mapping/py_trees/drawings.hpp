@@ -36,19 +36,8 @@ class PyTreesBuilder : public EngineBuilder {
   void on_stop(std::vector<Assignment> updates = {});
 };
 
-Draw py_trees_drawing_of(NodeType type);
-
-// One per family.
-void draw_py_trees_sequence(NodeBuilder& draw);
-void draw_py_trees_selector(NodeBuilder& draw);
-void draw_py_trees_parallel(NodeBuilder& draw);
-void draw_py_trees_map(NodeBuilder& draw);
-void draw_py_trees_rounds(NodeBuilder& draw);
-void draw_py_trees_one_shot(NodeBuilder& draw);
-void draw_py_trees_timeout(NodeBuilder& draw);
-void draw_py_trees_guard(NodeBuilder& draw);
-void draw_py_trees_queue(NodeBuilder& draw);
-void draw_py_trees_timer(NodeBuilder& draw);
-void draw_py_trees_root(NodeBuilder& draw);
+Family py_trees_leaf_drawings();
+Family py_trees_composite_drawings();
+Family py_trees_decorator_drawings();
 
 }  // namespace btcheck::mapping

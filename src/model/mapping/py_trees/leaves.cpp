@@ -2,6 +2,7 @@
 //
 // Behaviours of py_trees that answer by a rule of their own. All others are
 // leaves like those of BehaviorTree.CPP that run anew on every tick.
+#include <array>
 #include <optional>
 
 #include "model/mapping/py_trees/drawings.hpp"
@@ -12,8 +13,6 @@ namespace {
 Expression between(VariableId variable, int first, int last) {
   return both(at_least(variable, first), negated(at_least(variable, last + 1)));
 }
-
-}  // namespace
 
 // StatusQueue, TickCounter, Periodic, SuccessEveryN: `next` is the place in the
 // queue, written out. One that begins anew whenever it has not been running is
@@ -58,6 +57,36 @@ void draw_py_trees_timer(NodeBuilder& draw) {
   draw.edge(build.body(), build.running(), timer.is_counting());
   draw.edge(build.body(), build.success(), timer.is_due(), {timer.stop()});
   build.on_stop({timer.stop()});
+}
+
+// BehaviourTree.tick_tock: the root is ticked again and again, and nothing is
+// stopped in between.
+void draw_py_trees_root(NodeBuilder& draw) {
+  const VariableId status = draw.context().status(draw.id());
+  const LocationId start = draw.at("start_");
+  const LocationId tick = draw.at("tick_node");
+  draw.edge(start, tick, {}, {set(status, NodeStatus::NoRetStatus)});
+  draw.timed_edge(tick, draw.call(0), {1, 1}, "tick");
+  const auto ends = [&](NodeStatus answer, std::string_view location) {
+    draw.on_answer(0, answer, draw.at(location), {set(status, answer)});
+    draw.edge(draw.at(location), start);
+  };
+  ends(NodeStatus::Success, "success");
+  ends(NodeStatus::Failure, "failure");
+  ends(NodeStatus::Running, "running");
+}
+
+}  // namespace
+
+Family py_trees_leaf_drawings() {
+  static constexpr auto kRows = std::to_array<Drawing>({
+      {NodeType::BehaviorTree, draw_py_trees_root},
+      {NodeType::Action, draw_engine_leaf},
+      {NodeType::Condition, draw_engine_leaf},
+      {NodeType::Wait, draw_py_trees_timer},
+      {NodeType::AnswerQueue, draw_py_trees_queue},
+  });
+  return kRows;
 }
 
 }  // namespace btcheck::mapping
