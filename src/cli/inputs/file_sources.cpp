@@ -57,12 +57,13 @@ void add_beside(XmlProject& project, const std::vector<std::string>& roots,
   for (const std::string& name : names) add_file(project, roots, name);
 }
 
-FileSources::FileSources(const std::string& tree, const Options& options)
-    : tree_(tree),
+FileSources::FileSources(const InputFile& tree, const Options& options)
+    : tree_(tree.name),
       options_(options),
-      roots_(roots_of_includes(tree, options)),
-      has_folder_(options.project == nullptr && !is_given(tree)) {
-  if (has_folder_) add_beside(beside_, roots_, tree);
+      roots_(roots_of_includes(tree.name, options)),
+      has_folder_(options.project == nullptr && !is_given(tree.name) &&
+                  is_xml(tree.name, tree.text)) {
+  if (has_folder_) add_beside(beside_, roots_, tree.name);
 }
 
 const XmlProject& FileSources::project() const {
@@ -85,6 +86,11 @@ Result<InputFile> FileSources::text(const std::string& name) {
     break;
   }
   return read_file_in(roots_, name);
+}
+
+// Of a command, or of settings: what a tree may include is no matter of theirs.
+Result<InputFile> FileSources::named(const std::string& name) {
+  return read_file_in(options_.roots, name);
 }
 
 NearestFile FileSources::with_tree(std::string_view tree,

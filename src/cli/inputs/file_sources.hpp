@@ -26,9 +26,10 @@ void add_beside(XmlProject& project, const std::vector<std::string>& roots,
 class FileSources final : public Sources {
  public:
   // The options must outlive it.
-  FileSources(const std::string& tree, const Options& options);
+  FileSources(const InputFile& tree, const Options& options);
 
   Result<InputFile> text(const std::string& name) override;
+  Result<InputFile> named(const std::string& name) override;
   NearestFile with_tree(std::string_view tree,
                         const std::string& from) override;
   std::string package(std::string_view name, const std::string& from) override;
