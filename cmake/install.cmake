@@ -10,7 +10,7 @@ include(CMakePackageConfigHelpers)
 # it, so the options of this build stay here.
 add_library(btcheck_library STATIC)
 foreach(layer text automata model explore ltl check trace export project report
-    api)
+    settings api)
   target_sources(btcheck_library PRIVATE $<TARGET_OBJECTS:btcheck_${layer}>)
 endforeach()
 set_target_properties(btcheck_library PROPERTIES

@@ -33,6 +33,11 @@ namespace btcheck::v1 {
 
 // --- What goes in ---------------------------------------------------------
 
+struct NamedText {
+  std::string name;
+  std::string text;
+};
+
 // Where texts come from. Asked by the thread that called, while the call lasts.
 class Sources {
  public:
@@ -49,9 +54,18 @@ class Sources {
   // The share folder of a ROS package, for <include ros_pkg="...">; "" where
   // there is none.
   virtual std::string package(const std::string& /*name*/) { return {}; }
+
+  // The btcheck.toml that holds for a tree; nothing where there is none. It
+  // says what the request does not: profile, length of a tick, models,
+  // contracts; and which findings are meant, or are errors. What it names lies
+  // beside it.
+  virtual std::optional<NamedText> settings(const std::string& /*tree*/) {
+    return std::nullopt;
+  }
 };
 
-// Texts by their names. All of them are files of the program.
+// Texts by their names. All of them are files of the program. Settings are the
+// `btcheck.toml` in the folder of the tree, or the next one above it.
 class Files final : public Sources {
  public:
   void add(std::string name, std::string text);
@@ -60,6 +74,7 @@ class Files final : public Sources {
   std::optional<std::string> text(const std::string& name) override;
   std::vector<std::string> files() override;
   std::string package(const std::string& name) override;
+  std::optional<NamedText> settings(const std::string& tree) override;
 
  private:
   std::map<std::string, std::string> texts_;
@@ -75,10 +90,13 @@ struct Request {
   std::vector<std::string> models;  // names of files with <TreeNodesModel>
   std::string profile;              // "nav2-jazzy"; "": as the files say
   std::string main_tree;            // its ID; "": as the file says
-  int tick_milliseconds = 100;      // what one tick of the root takes
-  bool loops = false;               // ticked again after it has ended
-  bool wake_ups = false;            // ticked by tickOnce
-  bool tries_repairs = true;        // a checked change beside findings
+  std::string ticks;  // where time passes: root, leaves, nodes, none; "": root,
+                      // or as the rules say
+  int tick_milliseconds = 0;  // what one tick of the root takes; 0: as the
+                              // settings say, else 100
+  bool loops = false;         // ticked again after it has ended
+  bool wake_ups = false;      // ticked by tickOnce
+  bool tries_repairs = true;  // a checked change beside findings
   unsigned threads = 1;
 
   // 0: no limit. Seconds count from the call, through all that is done.
@@ -219,6 +237,109 @@ class Report {
   std::shared_ptr<const Whole> whole;
 };
 
+// --- A tree described -------------------------------------------------------
+
+enum class Direction : std::uint8_t { Unknown, Input, Output, Both };
+
+struct Port {
+  std::string name;
+  Direction direction = Direction::Unknown;
+  std::string type;                   // "int"; "" where nobody tells it
+  std::optional<std::string> value;   // as written; nothing where it is not
+  std::optional<std::string> preset;  // what it is where nothing is written
+  std::string about;                  // what it is for; "" where nobody says
+  std::string entry;                  // that the value points at: "goal"
+  Position where;                     // of the value
+};
+
+// A node as its files have it. A subtree that is used twice has its nodes
+// twice.
+struct DescribedNode {
+  std::string name;   // unique, as that of a Node in a report
+  std::string label;  // as its author calls it
+  std::string type;   // as it is registered: "RetryUntilSuccessful"
+  std::string kind;   // Tree, Control, Decorator, Action, Condition, SubTree
+  std::string about;  // what it does, in a sentence
+  Position where;
+  std::size_t parent = 0;  // a number in `nodes`; of the first node its own
+  std::vector<Port> ports;
+  std::vector<std::size_t> reads;  // numbers in `entries`
+  std::vector<std::size_t> writes;
+};
+
+// An entry of a blackboard, or a state variable of a .btf tree. Two subtrees
+// may each have an entry of the same name.
+struct Entry {
+  std::string name;
+  std::vector<std::string> values;   // that are told apart, where they are few
+  std::vector<std::size_t> writers;  // numbers in `nodes`
+  std::vector<std::size_t> readers;
+};
+
+struct Description {
+  Outcome outcome = Outcome::Met;  // BadInput: the tree could not be read
+  std::string tree;
+  std::string profile;
+  std::vector<Finding> findings;     // of reading
+  std::vector<DescribedNode> nodes;  // a parent before its children
+  std::vector<Entry> entries;
+
+  // All of it as one object.
+  std::string json() const;
+};
+
+// --- One run of a tree ------------------------------------------------------
+
+// What decides where the tree leaves something open, as `btcheck simulate` has
+// it: chance, or a script of answers.
+struct Plan {
+  std::optional<std::uint64_t> seed;  // the same seed: the same run everywhere
+  // Without a seed: the name of a file of answers. "": each leaf answers the
+  // first that it can.
+  std::string script;
+  int ticks = 100;  // where the run stops
+};
+
+enum class Ending : std::uint8_t {
+  Ended,    // the tree has succeeded or failed, and is not ticked again
+  Fault,    // an assignment out of range, or a division by zero
+  Stuck,    // no node can go on
+  Ticks,    // all that were asked for
+  Stopped,  // by a limit or the monitor
+  Refused   // the script asks for what the tree cannot do: a finding says what
+};
+
+struct Value {
+  std::string name;
+  std::string value;
+};
+
+class Simulation {
+ public:
+  // Met; BadInput: there was no run, or the script was refused; Missed: what is
+  // a warning is to be an error; Undecided: a limit was reached.
+  Outcome outcome = Outcome::Met;
+  std::string tree;
+  std::string profile;
+  std::vector<Finding> findings;
+  std::optional<Run> run;
+  std::vector<std::string> lines;  // of ticks, as the program prints them
+  Ending ending = Ending::Stopped;
+  std::string end;               // "t ended with success in tick 3"
+  int ticks = 0;                 // begun by the tree that has begun most
+  std::vector<Value> variables;  // in the last state, as declared
+  std::vector<Value> statuses;   // of the nodes, there
+
+  // All of it as one object.
+  std::string json() const;
+  // The run as `btcheck simulate -o` writes it; "" where there was none.
+  std::string itf() const;
+
+  // For simulate().
+  struct Whole;
+  std::shared_ptr<const Whole> whole;
+};
+
 struct Explanation {
   std::string code;
   std::string summary;      // a few words
@@ -234,6 +355,16 @@ Report check(const Request& request, Sources& sources,
 // Reads the tree and its rules, and searches nothing.
 Report lint(const Request& request, Sources& sources,
             Monitor* monitor = nullptr);
+
+// Reads the tree alone, and says what its files tell of each node. Rules are
+// not read. What a check has proven of a node is in Report::nodes by the same
+// name.
+Description describe(const Request& request, Sources& sources,
+                     Monitor* monitor = nullptr);
+
+// One run. Rules are not read.
+Simulation simulate(const Request& request, const Plan& plan, Sources& sources,
+                    Monitor* monitor = nullptr);
 
 // Nothing for a code that does not exist.
 std::optional<Explanation> explain(std::string_view code);

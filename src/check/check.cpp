@@ -397,9 +397,13 @@ Result<std::vector<std::string>> names_of_properties(
 CheckResult lint_inputs(const TreeInput& tree,
                         const std::vector<InputFile>& properties,
                         const Judgement& judgement) {
+  // Neither rules nor contracts read an entry.
+  TreeInput alone = tree;
+  alone.reading.tells_unread =
+      properties.empty() && tree.reading.leaves.empty();
   CheckResult result;
   const std::vector<CheckedFile> prepared =
-      prepare_all(tree, properties, {}, result);
+      prepare_all(alone, properties, {}, result);
   add_lint(tree, prepared, result);
   judge(judgement, properties, result);
   result.judged.is_whole = !result.is_broken;
@@ -413,6 +417,22 @@ Judged judge(const TreeInput& tree, const Judgement& judgement,
   FindingsJudge judging(judgement, sources);
   judging.judge(diagnostics);
   return judging.take();
+}
+
+Result<LoweredInput> lowered_input(const TreeInput& input,
+                                   const Judgement& judgement,
+                                   TickSemantics ticks) {
+  auto read = read_tree(input.name, input.text, input.reading);
+  std::vector<Diagnostic> found = std::move(read.diagnostics);
+  LoweredInput lowered;
+  lowered.is_denied = judge(input, judgement, found).is_denied;
+  if (!read.value) return {std::nullopt, std::move(found)};
+  lowered.tree = std::move(*read.value);
+  auto network = lower_values(lowered.tree, {input.name, input.text}, ticks);
+  add(found, std::move(network.diagnostics));
+  if (!network.value) return {std::nullopt, std::move(found)};
+  lowered.network = std::move(*network.value);
+  return {std::move(lowered), std::move(found)};
 }
 
 // What was found has to be what the engine does: entries whose real values do

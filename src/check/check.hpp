@@ -113,6 +113,16 @@ CheckResult lint_inputs(const TreeInput& tree,
                         const std::vector<InputFile>& properties,
                         const Judgement& judgement = {});
 
+// A tree and its network, with all values of its numbers: for one run of it.
+struct LoweredInput {
+  BehaviorTree tree;
+  Network network;
+  bool is_denied = false;  // what a reader warned of is an error
+};
+Result<LoweredInput> lowered_input(const TreeInput& input,
+                                   const Judgement& judgement,
+                                   TickSemantics ticks);
+
 // Judges what the readers have said of a tree and its rules.
 Judged judge(const TreeInput& tree, const Judgement& judgement,
              std::vector<Diagnostic>& diagnostics);

@@ -62,7 +62,7 @@ ExitCode run_space_of_one(const Options& options) {
   if (options.graph) {
     const ExitCode code = run_space_graph(options, *lowered);
     if (code != ExitCode::Met || options.graph_file.empty()) {
-      return worst_of(code, lowered->code);
+      return worst_of(code, lowered->code());
     }
   }
   Watch watch(options);
@@ -91,9 +91,9 @@ ExitCode run_space_of_one(const Options& options) {
     print(contribution_text(lowered->tree, parts));
   }
   tell_of_disk(options, report.result.stopped);
-  return worst_of(lowered->code, report.result.is_complete
-                                     ? ExitCode::Met
-                                     : ExitCode::Undecided);
+  return worst_of(lowered->code(), report.result.is_complete
+                                       ? ExitCode::Met
+                                       : ExitCode::Undecided);
 }
 
 // `btcheck space TREE`. Of a .btproj all trees that its files name, one after

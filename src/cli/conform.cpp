@@ -244,7 +244,7 @@ class Following {
     watch_.monitor.clear();
     if (options_.tells_coverage) text += coverage();
     print(text);
-    return worst_of(learned(), worst_of(code_, lowered_.code));
+    return worst_of(learned(), worst_of(code_, lowered_.code()));
   }
 
  private:

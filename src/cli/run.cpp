@@ -343,7 +343,7 @@ ExitCode run_run(const Options& options) {
   }
   return worst_of(execute(options, *lowered, *rules.value, system, *chosen,
                           view ? &*view : nullptr),
-                  lowered->code);
+                  lowered->code());
 }
 
 }  // namespace btcheck

@@ -7,16 +7,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <iostream>
 #include <ostream>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "check/simulate/script.hpp"
+#include "check/simulate/course.hpp"
 #include "cli/commands.hpp"
 #include "cli/console/console.hpp"
 #include "cli/from.hpp"
@@ -31,128 +28,42 @@
 namespace btcheck {
 namespace {
 
-using Chooser = std::function<ScriptedChoice(const Simulation&)>;
-
-// A root is about to begin a tick that was not asked for.
-bool is_past(const Simulation& simulation, int ticks) {
-  const auto choices = simulation.choices();
-  if (choices[0].kind != ChoiceKind::Tick) return false;
-  const Automaton& mover =
-      simulation.network().owner_of_edge(choices[0].step.edge);
-  return simulation.ticks(mover.node) >= ticks;
-}
-
-bool goes_on(const Simulation& simulation, int ticks) {
-  if (limits_of_command().reached() != StopReason::None ||
-      simulation.end() != RunEnd::None) {
-    return false;
-  }
-  const bool only_moves = simulation.choices()[0].kind == ChoiceKind::Move;
-  return (!only_moves || simulation.must_move()) && !is_past(simulation, ticks);
-}
-
-Result<Simulation> run_with(const SimulatedTree& simulated,
-                            Interleaving interleaving, const Chooser& choose,
-                            int ticks, std::ostream& out) {
-  Simulation simulation(simulated.tree, simulated.network, interleaving);
-  TickLines lines(simulated.tree, simulated.network);
-  std::vector<Diagnostic> findings;
-  while (findings.empty() && goes_on(simulation, ticks)) {
-    ScriptedChoice choice = choose(simulation);
-    if (auto* refusal = std::get_if<Diagnostic>(&choice)) {
-      findings.push_back(std::move(*refusal));
-      continue;
-    }
-    simulation.take(std::get<std::size_t>(choice));
-    simulation.for_each_latest([&](const Valuation&, const RunStep& step) {
-      const std::string line = lines.take(step);
-      if (!line.empty()) out << line << std::endl;
-    });
-  }
-  out << lines.rest(simulation.state()) << std::flush;
-  return {std::move(simulation), std::move(findings)};
-}
-
-std::string how_trees_ended(const Simulation& simulation) {
-  const BehaviorTree& tree = simulation.tree();
-  std::string text;
-  for (const NodeId root : tree.roots) {
-    const VariableId status = simulation.network().node_status[index(root)];
-    const auto answer =
-        static_cast<std::size_t>(simulation.state().variables[index(status)]);
-    text +=
-        fmt::format("{}{} ended with {} in tick {}", text.empty() ? "" : ", ",
-                    tree.node(root).name, status_names(tree.profile)[answer],
-                    simulation.ticks(root));
-  }
-  return text;
+// The lines of ticks are printed as they end.
+Course course_of(const SimulationPlan& plan, TickLines& lines,
+                 std::ostream& out) {
+  return {plan.ticks,
+          [] { return limits_of_command().reached() == StopReason::None; },
+          [&](const Valuation&, const RunStep& step) {
+            const std::string line = lines.take(step);
+            if (!line.empty()) out << line << std::endl;
+          }};
 }
 
 }  // namespace
 
-int most_ticks(const Simulation& simulation) {
-  int most = 0;
-  for (const NodeId root : simulation.tree().roots) {
-    most = std::max(most, simulation.ticks(root));
-  }
-  return most;
-}
-
-std::string ending_text(const Simulation& simulation, int ticks) {
-  const int last = most_ticks(simulation);
-  switch (simulation.end()) {
-    case RunEnd::Ended:
-      return how_trees_ended(simulation);
-    case RunEnd::Fault:
-      return fmt::format(
-          "a fault ended the run in tick {}: an assignment out of range, or a "
-          "division by zero",
-          last);
-    case RunEnd::Stuck:
-      return fmt::format("the tree is stuck in tick {}: no node can go on",
-                         last);
-    case RunEnd::None:
-      break;
-  }
-  return last >= ticks
-             ? fmt::format("stopped after {} tick{}; --ticks asks for more",
-                           ticks, ticks == 1 ? "" : "s")
-             : fmt::format("stopped in tick {}", last);
-}
-
 Result<Simulation> simulate(const SimulatedTree& simulated,
                             const SimulationPlan& plan, std::ostream& out) {
+  TickLines lines(simulated.tree, simulated.network);
+  const Course course = course_of(plan, lines, out);
+  const auto ended = [&](Result<Simulation> run) {
+    if (run.value) out << lines.rest(run.value->state()) << std::flush;
+    return run;
+  };
   if (plan.seed) {
-    SplitMix64 random(*plan.seed);
-    return run_with(
-        simulated, Interleaving::Open,
-        [&](const Simulation& simulation) {
-          return random_choice(simulation.choices(), random);
-        },
-        plan.ticks, out);
+    return ended(simulated_at_random(simulated.tree, simulated.network,
+                                     *plan.seed, course));
   }
-  auto file = read_file(plan.script);
-  if (!file.value) return {std::nullopt, std::move(file.diagnostics)};
-  const InputFile& text = *file.value;
-  auto script = read_simulation_script(simulated.tree, simulated.network,
-                                       text.name, text.text);
-  if (!script.value) return {std::nullopt, std::move(script.diagnostics)};
-  const SourceText source(text.name, text.text);
-  ScriptPlayer player(*script.value, source);
-  return run_with(
-      simulated, Interleaving::InOrder,
-      [&](const Simulation& simulation) { return player.choose(simulation); },
-      plan.ticks, out);
+  const auto file = read_file(plan.script);
+  if (!file.value) return {std::nullopt, file.diagnostics};
+  return ended(simulated_by_script(simulated.tree, simulated.network,
+                                   {file.value->name, file.value->text},
+                                   course));
 }
 
 std::string simulated_itf(const SimulatedTree& simulated, const Run& run,
                           const std::string& how) {
-  RunHeading heading;
-  heading.property = how;
-  heading.formula = "one run of many; no property is checked";
-  heading.verdict = "SIMULATED";
-  add_sources(heading, simulated.tree, simulated.input);
-  return itf_text(recorded(simulated.tree, simulated.network, run, heading));
+  return itf_text(recorded_simulation(simulated.tree, simulated.network,
+                                      simulated.input, run, how));
 }
 
 namespace {
@@ -237,7 +148,7 @@ ExitCode run_simulate(const Options& options) {
     InterruptWatch::stand_down();
     step_through(simulated, std::cin, *out,
                  ::isatty(STDIN_FILENO) != 0 ? Echo::No : Echo::Yes);
-    return lowered->code;
+    return lowered->code();
   }
   auto [run, findings] = simulate(simulated, plan, *out);
   if (run && !options.output.empty()) {
@@ -255,7 +166,7 @@ ExitCode run_simulate(const Options& options) {
   show(options, findings);
   if (has_error(findings)) return ExitCode::BadInput;
   return limits_of_command().reached() != StopReason::None ? ExitCode::Undecided
-                                                           : lowered->code;
+                                                           : lowered->code();
 }
 
 }  // namespace btcheck

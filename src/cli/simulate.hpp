@@ -7,6 +7,7 @@
 #include <string>
 
 #include "check/check.hpp"
+#include "check/simulate/course.hpp"
 #include "check/simulate/simulation.hpp"
 #include "cli/options/options.hpp"
 #include "model/automata/network.hpp"
@@ -37,13 +38,6 @@ enum class Echo : unsigned char { No, Yes };
 // input; `?` lists what may be typed. `s FILE` writes a file.
 void step_through(const SimulatedTree& simulated, std::istream& in,
                   std::ostream& out, Echo echo);
-
-// The number of the latest tick of any tree.
-int most_ticks(const Simulation& simulation);
-
-// How a run has ended: "the tree ended with success in tick 3". `ticks` is how
-// many it was to have.
-std::string ending_text(const Simulation& simulation, int ticks);
 
 // The run as ITF JSON; `how` it was made: "seed 7", "by hand".
 std::string simulated_itf(const SimulatedTree& simulated, const Run& run,

@@ -428,6 +428,12 @@ Result<BehaviorTree> read_tree(const std::string& name, const FileText& text,
                  : read_paper(name, text, reading);
 }
 
+Result<BtcppDocument> read_tree_document(const std::string& name,
+                                         const FileText& text,
+                                         const TreeReading& reading) {
+  return read_document(name, text, reading, {});
+}
+
 std::vector<Diagnostic> add_unknown_leaves(const std::string& name,
                                            const FileText& text,
                                            const TreeReading& reading,

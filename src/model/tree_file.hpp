@@ -71,6 +71,11 @@ std::string packaged_name(std::string_view folder, std::string_view path);
 Result<BehaviorTree> read_tree(const std::string& name, const FileText& text,
                                const TreeReading& reading);
 
+// An XML tree and all that it includes as it was written, by the same reading.
+Result<BtcppDocument> read_tree_document(const std::string& name,
+                                         const FileText& text,
+                                         const TreeReading& reading);
+
 // Reads an XML tree and all that it includes, and adds the leaves of which
 // nothing is known.
 std::vector<Diagnostic> add_unknown_leaves(const std::string& name,

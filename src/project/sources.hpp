@@ -24,6 +24,10 @@ class Sources {
 
   // The text of a file, by a name as a user or a file gives it.
   virtual Result<InputFile> text(const std::string& name) = 0;
+  // The same where the user or a file of settings names it, and not the tree.
+  virtual Result<InputFile> named(const std::string& name) {
+    return text(name);
+  }
 
   // The file that has a tree which none of those read so far has; `from` asks
   // for it.

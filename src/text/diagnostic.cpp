@@ -210,6 +210,13 @@ std::optional<Diagnostic> SourceText::refuse_binary() const {
   return std::nullopt;
 }
 
+Diagnostic file_error(std::string_view code, const std::string& name,
+                      std::string message, std::string help) {
+  return {
+      Severity::Error, std::string(code), std::move(message), name, {}, {}, {},
+      std::move(help)};
+}
+
 bool has_error(std::span<const Diagnostic> diagnostics) {
   return std::any_of(
       diagnostics.begin(), diagnostics.end(),

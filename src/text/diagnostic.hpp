@@ -112,6 +112,10 @@ class SourceText {
   std::vector<std::size_t> line_starts_;  // byte offset of each line
 };
 
+// An error in a file as a whole, or about it.
+Diagnostic file_error(std::string_view code, const std::string& name,
+                      std::string message, std::string help = {});
+
 // A value, and the diagnostics of reading it. Without a value, at least one of
 // them is an error.
 template <class T>

@@ -41,4 +41,26 @@ std::optional<Decimal> decimal_number(std::string_view text) {
   return Decimal{static_cast<int>(digits), static_cast<int>(behind.size())};
 }
 
+std::optional<std::uint64_t> bytes_in(const std::string& text) {
+  std::size_t digits = 0;
+  double number = 0;
+  try {
+    number = std::stod(text, &digits);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  const std::string unit = text.substr(digits);
+  if (unit == "k" || unit == "K") {
+    number *= 1 << 10;
+  } else if (unit == "M") {
+    number *= 1 << 20;
+  } else if (unit == "G") {
+    number *= 1 << 30;
+  } else if (!unit.empty()) {
+    return std::nullopt;
+  }
+  if (!(number >= 1) || number > 1e18) return std::nullopt;
+  return static_cast<std::uint64_t>(number);
+}
+
 }  // namespace btcheck

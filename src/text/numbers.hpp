@@ -4,6 +4,7 @@
 #pragma once
 
 #include <charconv>
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
@@ -39,6 +40,9 @@ struct Decimal {
 // "5", "-0.25", "+.5"; nothing for what is no such number, has more than nine
 // digits behind its point, or needs more than 32 bits without the point.
 std::optional<Decimal> decimal_number(std::string_view text);
+
+// "500M", "4G", "4096": bytes, at least one. Nothing for any other text.
+std::optional<std::uint64_t> bytes_in(const std::string& text);
 
 // The name, or where it is used already `name_2`, `name_3`, …
 inline std::string unused_name(std::set<std::string>& used,

@@ -9,12 +9,12 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "api/comparable.hpp"
 #include "file_text.hpp"
 #include "shell.hpp"
 
@@ -33,14 +33,6 @@ v1::Request request_for(std::string tree) {
 std::string tree_of(const std::string& body, const std::string& more = "") {
   return "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\">" + more +
          "<BehaviorTree ID=\"M\">" + body + "</BehaviorTree></root>";
-}
-
-// What differs from run to run, and what only a command has.
-nlohmann::json comparable(const std::string& text) {
-  nlohmann::json report = nlohmann::json::parse(text);
-  report.erase("timing");
-  for (nlohmann::json& tree : report["trees"]) tree.erase("timing");
-  return report;
 }
 
 TEST_CASE("findings stand where they are, with runs and repairs") {

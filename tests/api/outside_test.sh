@@ -33,6 +33,7 @@ for compiler in g++ clang++-14; do
   cmake --build "$folder/$compiler" >"$folder/log" 2>&1 || fail "$compiler: build"
   "$folder/$compiler/checker" "$tree" >"$folder/told" || fail "$compiler: checker"
   grep -qE "nodes, [0-9]+ states$" "$folder/told" || fail "$compiler: $(cat "$folder/told")"
+  "$folder/$compiler/hover" 22 "$tree" | grep -q "number_of_retries (int) = 1" || fail "$compiler: hover"
   ! "$folder/$compiler/checker" "$tree" "$folder/gone" 2>/dev/null || fail "a file that is not there"
 done
 cat "$folder/told"

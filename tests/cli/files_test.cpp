@@ -15,7 +15,7 @@
 #include <fstream>
 #include <string>
 
-#include "cli/settings/choices.hpp"
+#include "model/tree_file.hpp"
 #include "temporary_folder.hpp"
 
 namespace btcheck::files_test {
@@ -152,10 +152,10 @@ TEST_CASE("a directory is made with those above it, once or again") {
 }
 
 TEST_CASE("a path is taken as seen from beside another") {
-  CHECK(beside("a/b/p.ltl", "t.btf") == "a/b/t.btf");
-  CHECK(beside("p.ltl", "t.btf") == "t.btf");
-  CHECK(beside("a/p.ltl", "../t.btf") == "t.btf");
-  CHECK(beside("a/p.ltl", "/x/t.btf") == "/x/t.btf");
+  CHECK(included_name("a/b/p.ltl", "t.btf") == "a/b/t.btf");
+  CHECK(included_name("p.ltl", "t.btf") == "t.btf");
+  CHECK(included_name("a/p.ltl", "../t.btf") == "t.btf");
+  CHECK(included_name("a/p.ltl", "/x/t.btf") == "/x/t.btf");
 }
 
 TEST_CASE("a pipe is written to and stays one") {

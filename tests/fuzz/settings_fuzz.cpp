@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "cli/settings/baseline.hpp"
-#include "cli/settings/settings.hpp"
+#include "cli/settings/choices.hpp"
 #include "fuzzed.hpp"
 
 namespace btcheck {

@@ -118,7 +118,7 @@ const std::vector<Home>& homes() {
       {"CLI/", {"src/cli/options/words.cpp"}},
       {"doctest/", {}},
       {"tbb/", {"src/explore/", "src/ltl/", "src/cli/inputs/watch.cpp"}},
-      {"toml++/", {"src/cli/settings/toml.cpp"}},
+      {"toml++/", {"src/settings/toml.cpp"}},
       {"boost/asio", {"src/run/view/server.cpp"}},
       {"boost/beast", {"src/run/view/server.cpp"}},
       {"ltsmin/", {"src/pins/module.cpp"}},

@@ -202,7 +202,7 @@ class FolderSearch {
     project_->add_rules(*read.value);
     const auto named = tree_of_properties(*read.value);
     if (named.value && !named.value->empty()) {
-      return beside(properties, *named.value);
+      return included_name(properties, *named.value);
     }
     std::error_code fault;
     for (const std::string_view ending : {".btf", ".xml", ".btproj"}) {
@@ -238,10 +238,10 @@ std::string manifest_of(const std::string& source) {
 BatchEntry single(const std::string& manifest, ManifestEntry&& said) {
   BatchEntry entry;
   for (const std::string& file : said.properties) {
-    entry.properties.push_back(beside(manifest, file));
+    entry.properties.push_back(included_name(manifest, file));
   }
   if (!said.tree.empty()) {
-    entry.input = beside(manifest, said.tree);
+    entry.input = included_name(manifest, said.tree);
   } else if (!entry.properties.empty()) {
     entry.input = entry.properties[0];
     entry.properties.erase(entry.properties.begin());
@@ -274,7 +274,7 @@ void add_manifest(std::vector<BatchEntry>& to, const std::string& name,
       to.push_back(single(name, std::move(said)));
       continue;
     }
-    const std::string folder = beside(name, said.folder);
+    const std::string folder = included_name(name, said.folder);
     if (auto refused = refusal_outside(options.roots, folder)) {
       to.push_back(broken(folder, {std::move(*refused)}));
       continue;

@@ -11,8 +11,8 @@
 #include "check/check.hpp"
 #include "cli/options/interface.hpp"
 #include "cli/settings/choices.hpp"
-#include "cli/settings/settings.hpp"
 #include "project/xml_project.hpp"
+#include "settings/settings.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {

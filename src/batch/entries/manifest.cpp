@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "cli/settings/key_reader.hpp"
-#include "cli/settings/toml.hpp"
+#include "settings/key_reader.hpp"
+#include "settings/toml.hpp"
 
 namespace btcheck {
 namespace {

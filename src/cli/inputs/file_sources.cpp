@@ -61,7 +61,8 @@ FileSources::FileSources(const InputFile& tree, const Options& options)
     : tree_(tree.name),
       options_(options),
       roots_(roots_of_includes(tree.name, options)),
-      has_folder_(options.project == nullptr && !is_given(tree.name)) {
+      has_folder_(options.project == nullptr && !is_given(tree.name) &&
+                  is_xml(tree.name, tree.text)) {
   if (!has_folder_) return;
   const std::string name = fs::path(tree_).lexically_normal();
   if (tree.text.size() <= kMostBytes && beside_.is_new(name)) {
@@ -94,6 +95,11 @@ Result<InputFile> FileSources::text(const std::string& name) {
     break;
   }
   return read_file_in(roots_, name);
+}
+
+// Of a command, or of settings: what a tree may include is no matter of theirs.
+Result<InputFile> FileSources::named(const std::string& name) {
+  return read_file_in(options_.roots, name);
 }
 
 NearestFile FileSources::with_tree(std::string_view tree,

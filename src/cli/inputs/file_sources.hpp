@@ -29,6 +29,7 @@ class FileSources final : public Sources {
   FileSources(const InputFile& tree, const Options& options);
 
   Result<InputFile> text(const std::string& name) override;
+  Result<InputFile> named(const std::string& name) override;
   NearestFile with_tree(std::string_view tree,
                         const std::string& from) override;
   std::string package(std::string_view name, const std::string& from) override;

@@ -110,13 +110,6 @@ bool is_given(const std::string& name) {
          name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/");
 }
 
-Diagnostic file_error(std::string_view code, const std::string& name,
-                      std::string message, std::string help) {
-  return {
-      Severity::Error, std::string(code), std::move(message), name, {}, {}, {},
-      std::move(help)};
-}
-
 Result<InputFile> read_file(const std::string& name) {
   if (unbroken(name) != name) {
     return refused(name, fmt::format("`{}` has a line break in its name", name),

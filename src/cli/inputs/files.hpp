@@ -62,10 +62,6 @@ std::optional<Diagnostic> refusal_outside(const std::vector<std::string>& roots,
 Result<InputFile> read_file_in(const std::vector<std::string>& roots,
                                const std::string& name);
 
-// An error in a file as a whole, or about it.
-Diagnostic file_error(std::string_view code, const std::string& name,
-                      std::string message, std::string help = {});
-
 // Writes a file as a whole: into a temporary one beside it, then renamed. A
 // device or a pipe, /dev/stderr for instance, is written to directly. Returns
 // what went wrong, or "".

@@ -19,7 +19,7 @@
 #include "cli/settings/baseline.hpp"
 #include "cli/settings/choices.hpp"
 #include "ltl/rules/property.hpp"
-#include "model/sampling.hpp"
+#include "model/tree_file.hpp"
 #include "text/colors.hpp"
 
 namespace btcheck {
@@ -39,64 +39,13 @@ std::optional<std::string> tree_named_by(const InputFile& properties,
     append(found, named.diagnostics);
     return std::nullopt;
   }
-  if (!named.value->empty()) return beside(properties.name, *named.value);
+  if (!named.value->empty())
+    return included_name(properties.name, *named.value);
   found.push_back(file_error(
       "BT0003", properties.name,
       fmt::format("`{0}` names no tree; write btcheck TREE --prop {0}",
                   properties.name)));
   return std::nullopt;
-}
-
-// Adds the files of these names; false when one of them cannot be read. What
-// begins with a bracket is the text itself, as settings have it.
-bool add_files(const std::vector<std::string>& names,
-               const std::vector<std::string>& roots,
-               std::vector<InputFile>& to, std::vector<Diagnostic>& found) {
-  for (const std::string& name : names) {
-    if (name.starts_with('(')) {
-      to.push_back({"enums", name});
-      continue;
-    }
-    auto read = read_file_in(roots, name);
-    append(found, read.diagnostics);
-    if (!read.value) return false;
-    to.push_back({name, std::move(read.value->text)});
-  }
-  return true;
-}
-
-// How the tree is to be read. Nothing when a file of models or of contracts
-// cannot be read, or an option asks for what XML trees do not have.
-std::optional<TreeReading> reading_of(const InputFile& tree,
-                                      const Options& options,
-                                      std::vector<Diagnostic>& found) {
-  TreeReading reading;
-  reading.profile = options.profile;
-  reading.tick_ms = options.tick_ms;
-  reading.loops = options.loops;
-  reading.wakes = options.wakes;
-  reading.main_tree = options.main_tree;
-  reading.tells_unread = options.command == Command::Lint &&
-                         options.properties.empty() && options.rules.empty() &&
-                         options.leaves.empty();
-  if (!add_files(options.leaves, options.roots, reading.leaves, found) ||
-      !add_files(options.models, options.roots, reading.models, found)) {
-    return std::nullopt;
-  }
-  if (!is_xml(tree.name, tree.text)) return reading;
-  if (options.ticks == TickSemantics::Leaves ||
-      options.ticks == TickSemantics::Nodes) {
-    // In BehaviorTree.CPP the nodes of one tick take no time.
-    found.push_back(
-        file_error("BT1636", tree.name,
-                   "in an XML tree time passes at ticks of the root only",
-                   "leave --tick out, or `tick` of the rules; --tick-ms "
-                   "says how long a tick takes"));
-    return std::nullopt;
-  }
-  FileSources sources(tree, options);
-  add_asked_files(tree, sources, reading, found);
-  return reading;
 }
 
 std::string current_directory() {
@@ -217,7 +166,8 @@ std::optional<Inputs> with_tree(InputFile tree, Inputs inputs,
   if (is_property_file(options.input) && !inputs.properties.empty()) {
     take_ticks(inputs.properties[0], *all);
   }
-  auto reading = reading_of(tree, *all, found);
+  FileSources sources(tree, *all);
+  auto reading = reading_of(tree, reading_choices(*all), sources, found);
   if (!reading) return std::nullopt;
   inputs.tree = {std::move(tree), std::move(*reading)};
   inputs.options = std::move(*all);
@@ -274,22 +224,12 @@ std::optional<Lowered> read_and_lower(const Options& options) {
 }
 
 std::optional<Lowered> lowered_from(Inputs inputs, const Options& options) {
-  TreeInput& tree = inputs.tree;
-  auto read = read_tree(tree.name, tree.text, tree.reading);
-  const Judged judged = judge(tree, inputs.options.judgement, read.diagnostics);
-  show(options, read.diagnostics);
-  if (!read.value) return std::nullopt;
-  Lowered lowered{std::move(*read.value),
-                  {},
-                  std::move(tree),
-                  judged.is_denied ? ExitCode::Missed : ExitCode::Met};
-  auto network =
-      lower_values(lowered.tree, {lowered.input.name, lowered.input.text},
-                   inputs.options.ticks.value_or(TickSemantics::Root));
-  show(options, network.diagnostics);
-  if (!network.value) return std::nullopt;
-  lowered.network = std::move(*network.value);
-  return lowered;
+  auto lowered =
+      lowered_input(inputs.tree, inputs.options.judgement,
+                    inputs.options.ticks.value_or(TickSemantics::Root));
+  show(options, lowered.diagnostics);
+  if (!lowered.value) return std::nullopt;
+  return Lowered{std::move(*lowered.value), std::move(inputs.tree)};
 }
 
 // --- Messages ------------------------------------------------------------

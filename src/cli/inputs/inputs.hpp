@@ -10,9 +10,7 @@
 
 #include "check/check.hpp"
 #include "cli/options/options.hpp"
-#include "cli/settings/settings.hpp"
-#include "model/automata/network.hpp"
-#include "model/tree/tree.hpp"
+#include "settings/settings.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
@@ -43,11 +41,14 @@ std::optional<Inputs> read_inputs(const Options& options,
                                   std::vector<Diagnostic>& found);
 
 // Reads one tree and lowers it, or shows what is wrong with it.
-struct Lowered {
-  BehaviorTree tree;
-  Network network;
-  TreeInput input;                // that it was read from
-  ExitCode code = ExitCode::Met;  // Missed: a warning of the reader is an error
+struct Lowered : LoweredInput {
+  Lowered(LoweredInput from, TreeInput read)
+      : LoweredInput(std::move(from)), input(std::move(read)) {}
+
+  // Missed: a warning of the reader is an error.
+  ExitCode code() const { return is_denied ? ExitCode::Missed : ExitCode::Met; }
+
+  TreeInput input;  // that it was read from
 };
 std::optional<Lowered> read_and_lower(const Options& options);
 std::optional<Lowered> lowered_from(Inputs inputs, const Options& options);

@@ -2,7 +2,6 @@
 #include "cli/options/interface.hpp"
 
 #include <charconv>
-#include <exception>
 
 namespace btcheck {
 
@@ -12,28 +11,6 @@ std::optional<std::uint64_t> whole_number(std::string_view text) {
   const auto [at, fault] = std::from_chars(text.data(), end, number);
   if (fault != std::errc() || at != end) return std::nullopt;
   return number;
-}
-
-std::optional<std::uint64_t> bytes_in(const std::string& text) {
-  std::size_t digits = 0;
-  double number = 0;
-  try {
-    number = std::stod(text, &digits);
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-  const std::string unit = text.substr(digits);
-  if (unit == "k" || unit == "K") {
-    number *= 1 << 10;
-  } else if (unit == "M") {
-    number *= 1 << 20;
-  } else if (unit == "G") {
-    number *= 1 << 30;
-  } else if (!unit.empty()) {
-    return std::nullopt;
-  }
-  if (!(number >= 1) || number > 1e18) return std::nullopt;
-  return static_cast<std::uint64_t>(number);
 }
 
 std::optional<Shard> shard_of(std::string_view text) {

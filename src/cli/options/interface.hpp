@@ -35,9 +35,6 @@ struct ReportTarget {
 // does not fit.
 std::optional<std::uint64_t> whole_number(std::string_view text);
 
-// "500M", "4G", "4096": bytes, at least one. Nothing for any other text.
-std::optional<std::uint64_t> bytes_in(const std::string& text);
-
 // The part of a batch that one machine does: every `count`th entry, beginning
 // with number `index`, counted from 1.
 struct Shard {

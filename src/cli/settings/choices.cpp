@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "cli/settings/choices.hpp"
 
-#include <fmt/format.h>
-
-#include <filesystem>
 #include <optional>
+#include <utility>
+
+#include "cli/options/tables.hpp"
+#include "model/tree_file.hpp"
 
 namespace btcheck {
 namespace {
@@ -19,76 +20,36 @@ void set(OptionChoices& to, std::string_view key, Member Options::*member,
        }});
 }
 
-// Names of files beside the one that names them.
-std::optional<Words> files_in(KeyReader in, const std::string& file,
-                              std::string_view example) {
-  auto files = in.texts(example);
-  if (!files) return files;
-  for (std::string& name : *files) name = beside(file, name);
-  return files;
+// The same as an option of `btcheck batch` has it.
+template <class Enum>
+std::optional<Enum> choice(KeyReader& in, std::string_view option) {
+  return in.one_of<Enum>(choices_of(*option_of(Command::Batch, option)));
 }
 
 // Files of contracts; enumerators stay.
-void set_leaves(const std::optional<Words>& files, OptionChoices& to) {
-  if (!files) return;
-  to.push_back({"--leaves", [chosen = *files](Options& options) {
+void set_leaves(const Words& files, OptionChoices& to) {
+  to.push_back({"--leaves", [files](Options& options) {
                   std::erase_if(options.leaves, [](const std::string& name) {
                     return !name.starts_with('(');
                   });
-                  options.leaves.insert(options.leaves.begin(), chosen.begin(),
-                                        chosen.end());
+                  options.leaves.insert(options.leaves.begin(), files.begin(),
+                                        files.end());
                 }});
 }
 
-// As what a file of contracts says of them.
-void add_enumerators(KeyReader in, OptionChoices& to) {
-  const TomlNode* const table =
-      in.table("enumerators and their numbers", "{ RED = 1, GREEN = 2 }");
-  if (table == nullptr) return;
-  std::string contract = "(defenum";
-  for (const TomlMember& member : table->members) {
-    const bool is_number = member.value.kind == TomlNode::Kind::Integer;
-    contract += fmt::format(
-        " {} {}", member.key,
-        is_number ? std::to_string(member.value.integer) : member.value.text);
-  }
-  to.push_back({"--enums", [text = contract + ")"](Options& options) {
-                  options.leaves.push_back(text);
+void add_enumerators(const std::string& contract, OptionChoices& to) {
+  to.push_back({"--enums", [contract](Options& options) {
+                  options.leaves.push_back(contract);
                 }});
-}
-
-// Those that say how a tree is read.
-bool read_reading(KeyReader in, const std::string& file, OptionChoices& to) {
-  const std::string_view key = in.key();
-  if (key == "profile") {
-    set(to, key, &Options::profile, in.choice<Profile>("--profile"));
-  } else if (key == "models") {
-    set(to, key, &Options::models, files_in(in, file, "[\"nodes.xml\"]"));
-  } else if (key == "leaves") {
-    set_leaves(files_in(in, file, "[\"robot.leaves\"]"), to);
-  } else if (key == "enums") {
-    add_enumerators(in, to);
-  } else if (key == "loop") {
-    set(to, key, &Options::loops, in.flag());
-  } else if (key == "wake-ups") {
-    set(to, key, &Options::wakes, in.flag());
-  } else if (key == "main-tree") {
-    set(to, key, &Options::main_tree, in.text("\"Patrol\""));
-  } else if (key == "tick-ms") {
-    set(to, key, &Options::tick_ms, in.count(3'600'000));
-  } else {
-    return false;
-  }
-  return true;
 }
 
 // Those of the search.
 bool read_search(KeyReader in, OptionChoices& to) {
   const std::string_view key = in.key();
   if (key == "tick") {
-    set(to, key, &Options::ticks, in.choice<TickSemantics>("--tick"));
+    set(to, key, &Options::ticks, choice<TickSemantics>(in, "--tick"));
   } else if (key == "search") {
-    set(to, key, &Options::search, in.choice<SearchOrder>("--search"));
+    set(to, key, &Options::search, choice<SearchOrder>(in, "--search"));
   } else if (key == "reduce") {
     set(to, key, &Options::reduce,
         in.one_of({"full", "live", "none"},
@@ -133,14 +94,54 @@ Options applied_below(Options options, const OptionChoices& choices) {
   return options;
 }
 
-bool read_choice(KeyReader in, const std::string& file, OptionChoices& to) {
-  return read_reading(in, file, to) || read_search(in, to);
+OptionChoices option_choices(const ReadingChoices& reading) {
+  OptionChoices choices;
+  set(choices, "profile", &Options::profile, reading.profile);
+  set(choices, "tick-ms", &Options::tick_ms, reading.tick_ms);
+  set(choices, "loop", &Options::loops, reading.loops);
+  set(choices, "wake-ups", &Options::wakes, reading.wakes);
+  set(choices, "main-tree", &Options::main_tree, reading.main_tree);
+  set(choices, "models", &Options::models, reading.models);
+  if (reading.leaves) set_leaves(*reading.leaves, choices);
+  if (!reading.enums.empty()) add_enumerators(reading.enums, choices);
+  return choices;
 }
 
-std::string beside(const std::string& file, const std::string& name) {
-  return (std::filesystem::path(file).parent_path() / name)
-      .lexically_normal()
-      .string();
+bool read_choice(KeyReader in, const std::string& file, OptionChoices& to) {
+  ReadingChoices reading;
+  if (!read_reading_choice(in, file, reading)) return read_search(in, to);
+  for (OptionChoice& made : option_choices(reading)) {
+    to.push_back(std::move(made));
+  }
+  return true;
+}
+
+Options settled(const Options& options, const Settings& settings,
+                std::string_view tree, std::string_view text) {
+  Options all = applied_below(
+      options, option_choices(fitting(settings.reading, is_xml(tree, text))));
+  add_judgement(settings, all.judgement);
+  return all;
+}
+
+ReadingChoices reading_choices(const Options& options) {
+  ReadingChoices choices;
+  choices.profile = options.profile;
+  choices.ticks = options.ticks;
+  choices.tick_ms = options.tick_ms;
+  choices.loops = options.loops;
+  choices.wakes = options.wakes;
+  choices.main_tree = options.main_tree;
+  choices.models = options.models;
+  choices.leaves.emplace();
+  for (const std::string& name : options.leaves) {
+    if (name.starts_with('(')) {
+      choices.enums += name + '\n';
+    } else {
+      choices.leaves->push_back(name);
+    }
+  }
+  return choices;
 }
 
 }  // namespace btcheck

@@ -364,4 +364,15 @@ RecordedRun recorded(const BehaviorTree& tree, const Network& network,
   return record;
 }
 
+RecordedRun recorded_simulation(const BehaviorTree& tree,
+                                const Network& network, const TreeInput& input,
+                                const Run& run, const std::string& how) {
+  RunHeading heading;
+  heading.property = how;
+  heading.formula = "one run of many; no property is checked";
+  heading.verdict = "SIMULATED";
+  add_sources(heading, tree, input);
+  return recorded(tree, network, run, heading);
+}
+
 }  // namespace btcheck

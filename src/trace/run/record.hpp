@@ -88,4 +88,10 @@ RecordedRun recorded_heading(const BehaviorTree& tree, const Network& network,
 RecordedRun recorded(const BehaviorTree& tree, const Network& network,
                      const Run& run, const RunHeading& heading);
 
+// One of many runs, of which no property is checked; `how` it was made: "seed
+// 7", "by hand".
+RecordedRun recorded_simulation(const BehaviorTree& tree,
+                                const Network& network, const TreeInput& input,
+                                const Run& run, const std::string& how);
+
 }  // namespace btcheck

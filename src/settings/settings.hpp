@@ -22,7 +22,8 @@
 #include <vector>
 
 #include "check/findings/judgement.hpp"
-#include "cli/settings/choices.hpp"
+#include "project/reading.hpp"
+#include "settings/key_reader.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
@@ -37,7 +38,7 @@ struct Excludes {
 };
 
 struct Settings {
-  OptionChoices choices;
+  ReadingChoices reading;
   Excludes excludes;
   std::vector<LevelRule> levels;
   std::vector<std::string> denied;
@@ -47,10 +48,13 @@ struct Settings {
 Result<Settings> read_settings(const std::string& directory,
                                const std::string& name, std::string_view text);
 
-// The options of a tree (its name and text) with these settings below them.
-// What has no meaning for a tree of its kind is left out: a profile of the
-// other kind; models, contracts of leaves and wake-ups beside a .btf tree.
-Options settled(const Options& options, const Settings& settings,
-                std::string_view tree, std::string_view text = {});
+// What they say of findings, added to what is said of them already.
+void add_judgement(const Settings& settings, Judgement& to);
+
+// True when the key is one of those that say how a tree is read, whatever its
+// value: `main-tree`, and of the keys above those before `deny`. Files are
+// named from `file`.
+bool read_reading_choice(KeyReader in, const std::string& file,
+                         ReadingChoices& to);
 
 }  // namespace btcheck

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/settings/toml.hpp"
+#include "settings/toml.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -12,8 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/options/tables.hpp"
-#include "cli/settings/toml.hpp"
+#include "settings/toml.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
@@ -58,11 +57,6 @@ class KeyReader {
     if (!place) return std::nullopt;
     if (*place < meanings.size()) return meanings.begin()[*place];
     return static_cast<Value>(*place);
-  }
-  // The same for an option of `btcheck batch`.
-  template <class Enum>
-  std::optional<Enum> choice(std::string_view option) {
-    return one_of<Enum>(choices_of(*option_of(Command::Batch, option)));
   }
 
   std::optional<bool> flag();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "cli/settings/key_reader.hpp"
+#include "settings/key_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <utility>
 
-#include "cli/options/interface.hpp"
+#include "text/numbers.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {

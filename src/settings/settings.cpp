@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/settings/settings.hpp"
+#include "settings/settings.hpp"
 
 #include <fmt/format.h>
 
@@ -9,22 +9,58 @@
 #include <optional>
 #include <utility>
 
-#include "cli/settings/key_reader.hpp"
-#include "cli/settings/toml.hpp"
 #include "model/tree_file.hpp"
 #include "report/codes/codes.hpp"
+#include "settings/key_reader.hpp"
+#include "settings/toml.hpp"
 #include "text/wildcards.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
 namespace {
 
-// Those of kChoiceKeys that are the same for all trees of a project.
+// Those that say how a tree is read, as far as that is the same for all trees
+// of a project.
 const Words kTreeKeys = {"profile", "tick-ms", "loop", "wake-ups",
                          "models",  "leaves",  "enums"};
 const Words kKeys = {"profile", "tick-ms", "loop",    "wake-ups",
                      "models",  "leaves",  "enums",   "deny",
                      "levels",  "paths",   "excludes"};
+
+template <class Value, class Read>
+void take(std::optional<Value>& to, const std::optional<Read>& read) {
+  if (read) to = static_cast<Value>(*read);
+}
+
+Words profile_names() {
+  Words names;
+  for (const ProfileRow& row : kProfiles) names.emplace_back(row.name);
+  return names;
+}
+
+// Names of files beside the one that names them.
+std::optional<Words> files_in(KeyReader in, const std::string& file,
+                              std::string_view example) {
+  auto files = in.texts(example);
+  if (!files) return files;
+  for (std::string& name : *files) name = included_name(file, name);
+  return files;
+}
+
+// As what a file of contracts says of them.
+std::optional<std::string> enumerators_in(KeyReader in) {
+  const TomlNode* const table =
+      in.table("enumerators and their numbers", "{ RED = 1, GREEN = 2 }");
+  if (table == nullptr) return std::nullopt;
+  std::string contract = "(defenum";
+  for (const TomlMember& member : table->members) {
+    const bool is_number = member.value.kind == TomlNode::Kind::Integer;
+    contract += fmt::format(
+        " {} {}", member.key,
+        is_number ? std::to_string(member.value.integer) : member.value.text);
+  }
+  return contract + ")";
+}
 
 class SettingsReader {
  public:
@@ -61,7 +97,7 @@ class SettingsReader {
       read_paths(member.value);
     } else {
       return std::ranges::count(kTreeKeys, member.key) > 0 &&
-             read_choice(in, name_, settings_.choices);
+             read_reading_choice(in, name_, settings_.reading);
     }
     return true;
   }
@@ -183,23 +219,35 @@ bool Excludes::has(const std::string& path) const {
   });
 }
 
-Options settled(const Options& options, const Settings& settings,
-                std::string_view tree, std::string_view text) {
-  Options all = applied_below(options, settings.choices);
-  const bool has_xml = is_xml(tree, text);
-  if (all.profile && is_engine(*all.profile) != has_xml) {
-    all.profile = options.profile;
+void add_judgement(const Settings& settings, Judgement& to) {
+  to.levels = settings.levels;
+  to.denied.insert(to.denied.end(), settings.denied.begin(),
+                   settings.denied.end());
+}
+
+bool read_reading_choice(KeyReader in, const std::string& file,
+                         ReadingChoices& to) {
+  const std::string_view key = in.key();
+  if (key == "profile") {
+    take(to.profile, in.one_of<Profile>(profile_names()));
+  } else if (key == "models") {
+    take(to.models, files_in(in, file, "[\"nodes.xml\"]"));
+  } else if (key == "leaves") {
+    take(to.leaves, files_in(in, file, "[\"robot.leaves\"]"));
+  } else if (key == "enums") {
+    to.enums = enumerators_in(in).value_or("");
+  } else if (key == "loop") {
+    take(to.loops, in.flag());
+  } else if (key == "wake-ups") {
+    take(to.wakes, in.flag());
+  } else if (key == "main-tree") {
+    take(to.main_tree, in.text("\"Patrol\""));
+  } else if (key == "tick-ms") {
+    take(to.tick_ms, in.count(3'600'000));
+  } else {
+    return false;
   }
-  if (!has_xml) {
-    all.leaves = options.leaves;
-    all.models = options.models;
-    all.wakes = options.wakes;
-  }
-  Judgement& said = all.judgement;
-  said.levels = settings.levels;
-  said.denied.insert(said.denied.end(), settings.denied.begin(),
-                     settings.denied.end());
-  return all;
+  return true;
 }
 
 }  // namespace btcheck
