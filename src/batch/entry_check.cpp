@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+//
+// One tree of a batch, checked in the process of a worker: the check, what the
+// manifest expects of it, and its runs written to files.
 #include "batch/run.hpp"
 
 #include <fmt/format.h>

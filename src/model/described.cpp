@@ -202,7 +202,7 @@ DescribedEntry entry_of_variable(const BehaviorTree& tree,
 }  // namespace
 
 std::vector<DescribedNode> described_nodes(const BehaviorTree& tree,
-                                           const std::string& text,
+                                           const FileText& text,
                                            TreeReading reading) {
   std::vector<DescribedNode> nodes;
   for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {

@@ -38,7 +38,7 @@ struct DescribedNode {
 
 // By node. The tree is what was read of the text, by the same reading.
 std::vector<DescribedNode> described_nodes(const BehaviorTree& tree,
-                                           const std::string& text,
+                                           const FileText& text,
                                            TreeReading reading);
 
 // An entry of the blackboard, or a state variable of a .btf tree.

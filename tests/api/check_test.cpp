@@ -17,6 +17,7 @@
 #include "api/comparable.hpp"
 #include "file_text.hpp"
 #include "shell.hpp"
+#include "text/input_file.hpp"
 
 namespace btcheck::api_test {
 namespace {
@@ -64,6 +65,31 @@ TEST_CASE("findings stand where they are, with runs and repairs") {
       std::ranges::find(report.nodes, "OpenDoor", &v1::Node::type);
   CHECK(node == report.nodes.end());  // its type is Action
   CHECK(report.answers.size() == 7);
+}
+
+TEST_CASE("each text is parsed once, whatever is asked") {
+  v1::Files files;
+  files.add("a.xml", tree_of("<Sequence><Go/><SubTree ID=\"B\"/></Sequence>",
+                             "<include path=\"b.xml\"/>"));
+  files.add("b.xml",
+            "<root BTCPP_format=\"4\"><BehaviorTree ID=\"B\"><Stop/>"
+            "</BehaviorTree></root>");
+  files.add("r.ltl", "property p: never Go.failure\n");
+  v1::Request request = request_for("a.xml");
+  const auto counted = [&](const auto& call) {
+    const ParseCount count;
+    call();
+    CHECK(count.of_texts().size() == 2 + request.rules.size());
+    for (const auto& [text, times] : count.of_texts()) {
+      INFO(text);
+      CHECK(times == 1);
+    }
+  };
+  counted([&] { v1::describe(request, files); });
+  counted([&] { v1::lint(request, files); });
+  request.rules = {"r.ltl"};
+  counted([&] { v1::lint(request, files); });
+  counted([&] { v1::check(request, files); });
 }
 
 TEST_CASE("includes, neighbours, packages, models, contracts and rules") {

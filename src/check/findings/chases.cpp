@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+//
+// A condition under a ReactiveSequence asks for something, and the branch that
+// it guards undoes it as soon as it begins (BT2210). For example, "is the
+// battery low?" guards "charge": a moment of charging answers no, and halts it.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+//
+// Where something ends too late or too early: a loop without a way out
+// (BT2215), a Parallel that halts what has not ended (BT2214), and nodes that
+// no run ticks (BT2201, BT2212).
 #include <fmt/format.h>
 
 #include <algorithm>

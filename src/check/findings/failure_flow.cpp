@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: MIT
+//
+// A node answers the opposite of what has happened below it: it succeeds
+// although a task failed (BT2207), or fails although the repair succeeded
+// (BT2208). For example, a Fallback of "open the door" and "say sorry" succeeds
+// with the door shut.
 #include <fmt/format.h>
 
 #include <algorithm>

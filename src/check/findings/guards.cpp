@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+//
+// A guard is there to interrupt what it guards, and cannot (BT2209): it is
+// asked before the work begins and never again, or only in ticks that come too
+// late.
 #include <fmt/format.h>
 
 #include <algorithm>

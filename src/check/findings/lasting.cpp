@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+//
+// What outlives the work that it was done for: a leaf that goes on running when
+// a node above it has decided (BT2206), an entry or a device that is set and
+// never set back (BT2216).
 #include <fmt/format.h>
 
 #include <algorithm>

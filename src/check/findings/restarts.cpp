@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+//
+// A reactive node comes past its children in every tick, so what succeeds at
+// once is done again and again (BT2211), and a branch that changes its own
+// guard halts itself (BT2210).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+//
+// A decorator or a last resort takes an answer away: ForceSuccess around a deed
+// that may fail, an Inverter around one, a Fallback whose last child only notes
+// that the others failed (BT2207, BT2209, BT2215).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+//
+// A port reads an entry that a node of the tree writes, on a run on which that
+// node has not been ticked yet (BT2217).
 #include <fmt/format.h>
 
 #include <algorithm>

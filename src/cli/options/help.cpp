@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+//
+// The help and the man page say the same of each option: both are written from
+// the rows of `tables`, the one in columns, the other in the macros of man(7).
 #include "cli/options/tables.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+//
+// What a report comes to in a line: one outcome for each tree, how many there
+// are of each, and what is missing where a rule was left open.
 #include "report/formats/formats.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+//
+// A tree without rules: what the mission as a whole can do, a table of what is
+// proven of each node, and a run for each answer that nobody wants.
 #include "report/text/report.hpp"
 
 #include <fmt/format.h>

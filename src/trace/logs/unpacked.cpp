@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+//
+// Recordings are packed by zstd or lz4, a chunk at a time. A packed chunk says
+// how large it is, and may lie: what comes out is counted, never believed.
 #include <fmt/format.h>
 #include <lz4frame.h>
 #include <zstd.h>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+//
+// What the drawings of py_trees have in common: a node that is stopped is
+// INVALID, and so is all that it has ticked.
 #include "model/mapping/py_trees/drawings.hpp"
 
 #include <utility>
