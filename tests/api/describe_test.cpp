@@ -194,7 +194,7 @@ TEST_CASE("what cannot be read is not described, and it is said why") {
 }
 
 TEST_CASE("every type that is not the program's own has a sentence") {
-  for (const NodeTypeInfo& info : node_types()) {
+  for (const NodeTypeInfo& info : kNodeTypes) {
     CAPTURE(info.name);
     const bool is_own =
         info.type == NodeType::Action || info.type == NodeType::Condition;

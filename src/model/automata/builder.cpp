@@ -331,8 +331,8 @@ void NodeBuilder::halt_children(LocationId from, LocationId then,
               equals(status, NodeStatus::Running)),
          {set(status, NodeStatus::HaltMe), set(caller, 1)},
          "halts " + unique_name(context_.tree, child(i)));
-    none_runs =
-        both(none_runs, differs(status, static_cast<int>(NodeStatus::Running)));
+    none_runs = both(std::move(none_runs),
+                     differs(status, static_cast<int>(NodeStatus::Running)));
   }
   edge(waiting, from, all_children_are_back());
   edge(from, then, none_runs, std::move(updates));
@@ -350,7 +350,8 @@ Expression NodeBuilder::some_child_runs() const {
   Expression runs;
   for (const NodeId each : node_.children) {
     Expression this_runs = equals(context_.status(each), NodeStatus::Running);
-    runs = runs.is_true() ? this_runs : either(runs, this_runs);
+    runs = runs.is_true() ? std::move(this_runs)
+                          : either(std::move(runs), std::move(this_runs));
   }
   return runs;
 }
