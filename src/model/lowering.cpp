@@ -164,15 +164,14 @@ void drop_unused_locations(Automaton& automaton) {
 const mapping::Drawings& drawings_of(Profile profile) {
   using namespace mapping;
   static const Drawings kBtf(
-      In::Btf, {leaf_drawings(), control_drawings(), decorator_drawings()});
+      In::Btf, {kLeafDrawings, kControlDrawings, kDecoratorDrawings});
   static const Drawings kBtcpp(
-      In::Btcpp,
-      {engine_leaf_drawings(), engine_sequence_drawings(),
-       engine_parallel_drawings(), branching_drawings(),
-       engine_decorator_drawings(), time_drawings(), nav2_drawings()});
+      In::Btcpp, {kEngineLeafDrawings, kEngineSequenceDrawings,
+                  kEngineParallelDrawings, kBranchingDrawings,
+                  kEngineDecoratorDrawings, kTimeDrawings, kNav2Drawings});
   static const Drawings kPyTrees(
-      In::PyTrees, {py_trees_leaf_drawings(), py_trees_composite_drawings(),
-                    py_trees_decorator_drawings()});
+      In::PyTrees, {kPyTreesLeafDrawings, kPyTreesCompositeDrawings,
+                    kPyTreesDecoratorDrawings});
   if (profile == Profile::PyTrees) return kPyTrees;
   return is_engine(profile) ? kBtcpp : kBtf;
 }

@@ -6,10 +6,11 @@
 
 #include <cstddef>
 #include <functional>
+#include <iterator>
 
 namespace btcheck {
 
-// Whether row i is that of value i, as its column says: a member or a function.
+// Whether row i is that of value i, as this column says.
 template <class Table, class Column>
 constexpr bool is_indexed(const Table& table, Column column) {
   std::size_t at = 0;
@@ -23,12 +24,12 @@ constexpr bool is_indexed(const Table& table, Column column) {
 // Whether no two rows have the same value there.
 template <class Table, class Column>
 constexpr bool is_unique(const Table& table, Column column) {
-  for (const auto& row : table) {
-    int count = 0;
-    for (const auto& other : table) {
-      count += std::invoke(column, row) == std::invoke(column, other) ? 1 : 0;
+  for (auto row = std::begin(table); row != std::end(table); ++row) {
+    for (auto other = std::begin(table); other != row; ++other) {
+      if (std::invoke(column, *row) == std::invoke(column, *other)) {
+        return false;
+      }
     }
-    if (count != 1) return false;
   }
   return true;
 }

@@ -186,11 +186,16 @@ LocationId NodeBuilder::waiting_beside(LocationId location) {
 }
 
 VariableId NodeBuilder::local(std::string_view name, int min, int max,
-                              int initial, LocalRole role) {
+                              int initial) {
   VariableId made = context_.add_variable(
       {VariableRole::Local, std::string(name), min, max, initial, {}});
-  context_.network.variables.back().local = role;
   automaton().locals.push_back(made);
+  return made;
+}
+
+VariableId NodeBuilder::rounds(std::string_view name, int most) {
+  const VariableId made = local(name, 0, most, 0);
+  context_.network.variables.back().local = LocalRole::Rounds;
   return made;
 }
 

@@ -97,8 +97,9 @@ class NodeBuilder {
   // Where the node waits for the children that it halts in a location: each
   // such location has its own.
   LocationId waiting_beside(LocationId location);
-  VariableId local(std::string_view name, int min, int max, int initial,
-                   LocalRole role = LocalRole::Inner);
+  VariableId local(std::string_view name, int min, int max, int initial);
+  // Of LocalRole::Rounds, from 0 on.
+  VariableId rounds(std::string_view name, int most);
   // Makes a variable of the family one of this automaton's locals.
   void own(VariableId variable) { automaton().locals.push_back(variable); }
 

@@ -19,6 +19,22 @@ constexpr auto kIn = BtcppDirection::Input;
 constexpr auto kOut = BtcppDirection::Output;
 constexpr auto kInOut = BtcppDirection::InOut;
 
+// Of types with one port.
+template <const auto& rows>
+void read_rounds(PortReader& ports, Node& node) {
+  node.repetitions = ports.rounds(rows[0].name);
+  ports.read_at_tick(node, Int, rows[0].name);
+}
+template <const auto& rows>
+void read_milliseconds(PortReader& ports, Node& node) {
+  node.duration = ports.ticks(rows[0].name, 1);
+  ports.read_at_tick(node, Unsigned, rows[0].name);
+}
+template <const auto& rows>
+void read_option(PortReader& ports, Node& node) {
+  node.option = ports.flag(rows[0].name, rows[0].preset == "true");
+}
+
 constexpr std::array kSubTree = {
     PortRow{"_autoremap", kIn, Bool, Optional, "false",
             "If true, all the ports with the same name will be remapped"}};
@@ -71,56 +87,33 @@ constexpr std::array kTryCatch = {
     PortRow{"catch_on_halt", kIn, Bool, Optional, "false",
             "If true, execute the catch child when the node is halted during "
             "the try-block"}};
-void read_try_catch(PortReader& ports, Node& node) {
-  node.option = ports.flag("catch_on_halt", false);
-}
-
 constexpr std::array kRetry = {
     PortRow{"num_attempts", kIn, Int, Mandatory, "",
             "Execute again a failing child up to N times. Use -1 to create an "
             "infinite loop."}};
-void read_retry(PortReader& ports, Node& node) {
-  node.repetitions = ports.rounds("num_attempts");
-  ports.read_at_tick(node, Int, "num_attempts");
-}
-
 constexpr std::array kRepeat = {
     PortRow{"num_cycles", kIn, Int, Mandatory, "",
             "Repeat a successful child up to N times. Use -1 to create an "
             "infinite loop."}};
-void read_repeat(PortReader& ports, Node& node) {
-  node.repetitions = ports.rounds("num_cycles");
-  ports.read_at_tick(node, Int, "num_cycles");
-}
-
 constexpr std::array kSleep = {PortRow{"msec", kIn, Unsigned, Mandatory}};
 constexpr std::array kTimeout = {
     PortRow{"msec", kIn, Unsigned, Mandatory, "",
             "After a certain amount of time, halt() the child if it is still "
             "running."}};
-void read_milliseconds(PortReader& ports, Node& node) {
-  node.duration = ports.ticks("msec", 1);
-  ports.read_at_tick(node, Unsigned, "msec");
-}
-
 constexpr std::array kDelay = {
     PortRow{"delay_msec", kIn, Unsigned, Mandatory, "",
             "Tick the child after a few milliseconds"}};
 void read_delay(PortReader& ports, Node& node) {
   node.duration = Duration{0, 0};
-  if (ports.is_in(releases::kDelayIsNone)) return;
-  node.duration = ports.ticks("delay_msec", 1);
-  ports.read_at_tick(node, Unsigned, "delay_msec");
+  if (!ports.is_in(releases::kDelayIsNone)) {
+    read_milliseconds<kDelay>(ports, node);
+  }
 }
 
 constexpr std::array kRunOnce = {
     PortRow{"then_skip", kIn, Bool, Optional, "true",
             "If true, skip after the first execution, otherwise return the "
             "same NodeStatus returned once by the child."}};
-void read_run_once(PortReader& ports, Node& node) {
-  node.option = ports.flag("then_skip", true);
-}
-
 constexpr std::array kPrecondition = {
     PortRow{"if", kIn, Script, Mandatory},
     PortRow{"else", kIn, Status, Optional, "FAILURE",
@@ -235,29 +228,32 @@ constexpr NodeTypeRow control(std::string_view id, NodeType type,
                               int exact_children = 0) {
   return {id, BtcppKind::Control, type, ports, exact_children, {}, read};
 }
-
 constexpr NodeTypeRow decorator(std::string_view id, NodeType type,
                                 std::span<const PortRow> ports = {},
                                 ReadPorts read = nullptr) {
   return {id, BtcppKind::Decorator, type, ports, 0, {}, read};
 }
-
 constexpr NodeTypeRow subtree(std::string_view id,
                               std::span<const PortRow> ports = {}) {
   return {id, BtcppKind::SubTree, NodeType::SubTree, ports};
 }
-
 // Cases 1 to `count`, and a last child for all other values.
 constexpr NodeTypeRow switch_of(std::string_view id, std::size_t count) {
   return control(id, NodeType::Switch, std::span(kSwitch).first(count + 1),
                  read_cases, static_cast<int>(count + 1));
 }
-
+constexpr NodeTypeRow since(int release, NodeTypeRow row) {
+  row.since = release;
+  return row;
+}
+constexpr NodeTypeRow as(BtcppKind kind, NodeTypeRow row) {
+  row.kind = kind;
+  return row;
+}
 constexpr NodeTypeRow with(KeyedEntry keyed, NodeTypeRow row) {
   row.keyed = keyed;
   return row;
 }
-
 constexpr NodeTypeRow open(std::string_view why, NodeTypeRow row) {
   row.left_open = why;
   return row;
@@ -288,13 +284,11 @@ constexpr NodeTypeRow action(std::string_view id, LeafAnswers answers,
                              ReadPorts read = nullptr) {
   return {id, BtcppKind::Action, type, ports, 0, answers, read};
 }
-
 constexpr NodeTypeRow condition(std::string_view id,
                                 LeafMemory memory = LeafMemory::None) {
   const LeafAnswers answers = {true, true, false, memory};
   return {id, BtcppKind::Condition, NodeType::Condition, {}, 0, answers};
 }
-
 constexpr NodeTypeRow in(Nav2Branches branches, NodeTypeRow row) {
   row.branches = branches;
   return row;
@@ -307,12 +301,14 @@ constexpr std::array kBothReleases = {
     control("ReactiveFallback", NodeType::ReactiveFallback),
     control("IfThenElse", NodeType::IfThenElse),
     decorator("Inverter", NodeType::Inverter),
-    decorator("RetryUntilSuccessful", NodeType::RetryUntilSuccessful, kRetry,
-              read_retry),
+    since(releases::kMisspellsRetry.end,
+          decorator("RetryUntilSuccessful", NodeType::RetryUntilSuccessful,
+                    kRetry, read_rounds<kRetry>)),
     decorator("KeepRunningUntilFailure", NodeType::KeepRunningUntilFailure),
-    decorator("Repeat", NodeType::Repeat, kRepeat, read_repeat),
-    decorator("Timeout", NodeType::Timeout, kTimeout, read_milliseconds),
-    decorator("Delay", NodeType::Delay, kDelay, read_delay),
+    decorator("Repeat", NodeType::Repeat, kRepeat, read_rounds<kRepeat>),
+    decorator("Timeout", NodeType::Timeout, kTimeout,
+              read_milliseconds<kTimeout>),
+    since(30502, decorator("Delay", NodeType::Delay, kDelay, read_delay)),
     decorator("ForceSuccess", NodeType::ForceSuccess),
     decorator("ForceFailure", NodeType::ForceFailure),
     action("AlwaysSuccess", kSucceeds),
@@ -325,46 +321,50 @@ constexpr std::array kBothReleases = {
 
 constexpr std::array kOnlyVersion4 = {
     subtree("SubTree", kSubTree),
-    control("AsyncFallback", NodeType::AsyncFallback),
-    control("AsyncSequence", NodeType::AsyncSequence),
+    since(40200, control("AsyncFallback", NodeType::AsyncFallback)),
+    since(40200, control("AsyncSequence", NodeType::AsyncSequence)),
     control("SequenceWithMemory", NodeType::SequenceWithMemory),
     control("Parallel", NodeType::Parallel, kParallel, read_parallel),
-    control("ParallelAll", NodeType::ParallelAll, kParallelAll,
-            read_parallel_all),
+    since(40302, control("ParallelAll", NodeType::ParallelAll, kParallelAll,
+                         read_parallel_all)),
     control("WhileDoElse", NodeType::WhileDoElse),
-    control("TryCatch", NodeType::TryCatch, kTryCatch, read_try_catch),
-    decorator("RunOnce", NodeType::RunOnce, kRunOnce, read_run_once),
+    since(40900, control("TryCatch", NodeType::TryCatch, kTryCatch,
+                         read_option<kTryCatch>)),
+    since(40200, decorator("RunOnce", NodeType::RunOnce, kRunOnce,
+                           read_option<kRunOnce>)),
     decorator("Precondition", NodeType::Precondition, kPrecondition,
               read_precondition),
     action("Script", kSucceeds, kScript, NodeType::Script, read_script),
-    NodeTypeRow{"ScriptCondition",
-                BtcppKind::Condition,
-                NodeType::Script,
-                kScriptCondition,
-                0,
-                {},
-                read_script_condition},
+    since(40301, as(BtcppKind::Condition,
+                    action("ScriptCondition", kAtOnce, kScriptCondition,
+                           NodeType::Script, read_script_condition))),
     // Fails where the entry that is copied has no value; throws where there is
     // no such entry.
     with(KeyedEntry::IsSet, action("SetBlackboard", kAtOnce, kSetBlackboard,
                                    NodeType::Script, read_set_blackboard)),
-    with(KeyedEntry::IsUnset, action("UnsetBlackboard", kSucceeds, kUnset,
-                                     NodeType::Script, read_unset_blackboard)),
+    since(40403, with(KeyedEntry::IsUnset,
+                      action("UnsetBlackboard", kSucceeds, kUnset,
+                             NodeType::Script, read_unset_blackboard))),
     // Runs until its time is up; with no milliseconds it succeeds at once.
-    action("Sleep", {true, false, true, LeafMemory::Latched}, kSleep,
-           NodeType::Wait, read_milliseconds),
-    decorator("LoopInt", NodeType::Loop, kLoop<Int>, read_loop),
-    decorator("LoopBool", NodeType::Loop, kLoop<Bool>, read_loop),
-    decorator("LoopDouble", NodeType::Loop, kLoop<Double>, read_loop),
-    decorator("LoopString", NodeType::Loop, kLoop<String>, read_loop_of_texts),
+    since(40300, action("Sleep", {true, false, true, LeafMemory::Latched},
+                        kSleep, NodeType::Wait, read_milliseconds<kSleep>)),
+    since(40305, decorator("LoopInt", NodeType::Loop, kLoop<Int>, read_loop)),
+    since(40305, decorator("LoopBool", NodeType::Loop, kLoop<Bool>, read_loop)),
+    since(40200,
+          decorator("LoopDouble", NodeType::Loop, kLoop<Double>, read_loop)),
+    since(40200, decorator("LoopString", NodeType::Loop, kLoop<String>,
+                           read_loop_of_texts)),
     // Remembers the last change it saw (`sequence_id_`) beyond a reset.
-    open(kMayBeUpdated, action("WasEntryUpdated", kAtOnce, kEntry)),
-    open(kMayBeUpdated,
-         decorator("SkipUnlessUpdated", NodeType::WhenUpdated, kEntry,
-                   read_when_updated<NodeStatus::Skipped>)),
-    open(kMayBeUpdated,
-         decorator("WaitValueUpdate", NodeType::WhenUpdated, kEntry,
-                   read_when_updated<NodeStatus::Running>))};
+    since(40600,
+          open(kMayBeUpdated, action("WasEntryUpdated", kAtOnce, kEntry))),
+    since(40600,
+          open(kMayBeUpdated,
+               decorator("SkipUnlessUpdated", NodeType::WhenUpdated, kEntry,
+                         read_when_updated<NodeStatus::Skipped>))),
+    since(40600,
+          open(kMayBeUpdated,
+               decorator("WaitValueUpdate", NodeType::WhenUpdated, kEntry,
+                         read_when_updated<NodeStatus::Running>)))};
 
 constexpr std::array kOnlyVersion3 = {
     subtree("SubTree"),
@@ -380,8 +380,8 @@ constexpr std::array kOnlyVersion3 = {
               read_check<PortComparison::Double>),
     decorator("BlackboardCheckString", NodeType::BlackboardCheck, kCheck,
               read_check<PortComparison::Text>),
-    decorator("BlackboardCheckBool", NodeType::BlackboardCheck, kCheck,
-              read_check<PortComparison::Bool>)};
+    since(30601, decorator("BlackboardCheckBool", NodeType::BlackboardCheck,
+                           kCheck, read_check<PortComparison::Bool>))};
 
 constexpr std::array kRecovery = {PortRow{"number_of_retries", kIn, Int}};
 void read_recovery(PortReader& ports, Node& node) {
@@ -482,12 +482,7 @@ constexpr std::array kNav2 = {
     in(kUntilKilted, condition("IsPathValid")),
     // Fails while the robot moves, runs until it has stood still for long
     // enough.
-    in(kKilted, {"IsStopped",
-                 BtcppKind::Condition,
-                 NodeType::Action,
-                 {},
-                 0,
-                 kRestarting}),
+    in(kKilted, as(BtcppKind::Condition, action("IsStopped", kRestarting))),
     // Conditions with a memory: what to compare with later is noted on the
     // first tick after a reset, or in the life of the tree (`first_time_`); a
     // success is kept (`was_found_`).
@@ -575,6 +570,20 @@ static_assert(are_all_types(In::Btcpp,
                              kNav2},
                             {NodeType::BehaviorTree, NodeType::OtherControl,
                              NodeType::OtherDecorator}));
+
+struct BranchRow {
+  Nav2Branch branch;
+  Profile profile;
+};
+// What nobody has named is main rather than lyrical.
+constexpr std::array kBranches = {
+    BranchRow{Nav2Branch::Galactic, Profile::Nav2Galactic},
+    BranchRow{Nav2Branch::Humble, Profile::Nav2Humble},
+    BranchRow{Nav2Branch::Iron, Profile::Nav2Iron},
+    BranchRow{Nav2Branch::Jazzy, Profile::Nav2Jazzy},
+    BranchRow{Nav2Branch::Kilted, Profile::Nav2Kilted},
+    BranchRow{Nav2Branch::Lyrical, Profile::Nav2Main}};
+static_assert(is_indexed(kBranches, &BranchRow::branch));
 
 const NodeTypeRow* row_of(std::span<const NodeTypeRow> rows,
                           std::string_view id) {
@@ -667,22 +676,6 @@ BtcppRelease dialect_of(Profile profile) {
   return is_release_3(profile) ? BtcppRelease::V3 : BtcppRelease::V4;
 }
 
-namespace {
-struct BranchRow {
-  Nav2Branch branch;
-  Profile profile;
-};
-// What nobody has named is main rather than lyrical.
-constexpr std::array kBranches = {
-    BranchRow{Nav2Branch::Galactic, Profile::Nav2Galactic},
-    BranchRow{Nav2Branch::Humble, Profile::Nav2Humble},
-    BranchRow{Nav2Branch::Iron, Profile::Nav2Iron},
-    BranchRow{Nav2Branch::Jazzy, Profile::Nav2Jazzy},
-    BranchRow{Nav2Branch::Kilted, Profile::Nav2Kilted},
-    BranchRow{Nav2Branch::Lyrical, Profile::Nav2Main}};
-static_assert(is_indexed(kBranches, &BranchRow::branch));
-}  // namespace
-
 Profile profile_of_branch(Nav2Branch branch) {
   return kBranches[static_cast<std::size_t>(branch)].profile;
 }
@@ -700,31 +693,9 @@ std::vector<std::string> builtin_names(BtcppRelease release) {
 }
 
 int first_release(std::string_view id) {
-  struct Row {
-    std::string_view id;
-    int release;
-  };
-  constexpr std::array kRows = {
-      Row{"Delay", 30502},
-      Row{"RetryUntilSuccessful", releases::kMisspellsRetry.end},
-      Row{"BlackboardCheckBool", 30601},
-      Row{"AsyncSequence", 40200},
-      Row{"AsyncFallback", 40200},
-      Row{"RunOnce", 40200},
-      Row{"LoopDouble", 40200},
-      Row{"LoopString", 40200},
-      Row{"Sleep", 40300},
-      Row{"ScriptCondition", 40301},
-      Row{"ParallelAll", 40302},
-      Row{"LoopInt", 40305},
-      Row{"LoopBool", 40305},
-      Row{"UnsetBlackboard", 40403},
-      Row{"WasEntryUpdated", 40600},
-      Row{"SkipUnlessUpdated", 40600},
-      Row{"WaitValueUpdate", 40600},
-      Row{"TryCatch", 40900}};
-  const auto found = std::ranges::find(kRows, id, &Row::id);
-  return found == kRows.end() ? 0 : found->release;
+  const NodeTypeRow* row = builtin_type(BtcppRelease::V4, id);
+  if (row == nullptr) row = builtin_type(BtcppRelease::V3, id);
+  return row != nullptr ? row->since : 0;
 }
 
 OldName old_name(BtcppRelease release, std::string_view id) {

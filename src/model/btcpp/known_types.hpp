@@ -8,7 +8,7 @@
 // those of py_trees 2.2.3.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <initializer_list>
 #include <optional>
 #include <span>
@@ -154,7 +154,7 @@ enum class PortComparison : std::uint8_t {
 class PortReader {
  public:
   virtual const BtcppNode& element() const = 0;
-  virtual std::vector<const BtcppNode*> children() const = 0;
+  virtual const BtcppNode* first_child() const = 0;  // nullptr: none
   virtual Profile profile() const = 0;
   // As it is written, else the default of its model.
   virtual std::optional<std::string> port(std::string_view name) const = 0;
@@ -208,6 +208,7 @@ struct NodeTypeRow {
   // is allowed.
   std::string_view left_open = {};
   KeyedEntry keyed = KeyedEntry::None;
+  int since = 0;  // see `first_release`
   // Those that have a type of Nav2.
   Nav2Branches branches = Nav2Branches::all();
 };
@@ -217,19 +218,14 @@ struct NodeTypeRow {
 constexpr bool are_all_types(
     In language, std::initializer_list<std::span<const NodeTypeRow>> tables,
     std::initializer_list<NodeType> others) {
-  std::array<bool, kNodeTypeCount> is_there{};
-  for (const NodeType type : others) is_there[static_cast<int>(type)] = true;
-  for (const auto rows : tables) {
-    for (const NodeTypeRow& row : rows) {
-      is_there[static_cast<int>(row.type)] = true;
-    }
-  }
-  for (const NodeTypeInfo& info : kNodeTypes) {
-    if (is_there[static_cast<int>(info.type)] != has(info.in, language)) {
-      return false;
-    }
-  }
-  return true;
+  return std::ranges::all_of(kNodeTypes, [&](const NodeTypeInfo& info) {
+    const auto has_row = [&](std::span<const NodeTypeRow> rows) {
+      return std::ranges::count(rows, info.type, &NodeTypeRow::type) > 0;
+    };
+    const bool is_there = std::ranges::count(others, info.type) > 0 ||
+                          std::ranges::any_of(tables, has_row);
+    return is_there == has(info.in, language);
+  });
 }
 
 std::span<const NodeTypeRow> py_trees_types();

@@ -94,13 +94,11 @@ class Ports {
   }
 
   void check_guard() {
-    const auto children = ports_.children();
-    if (children.empty()) return;
-    const BtcppNode& asked = *children.front();
-    if (asked.kind == BtcppKind::Condition) return;
+    const BtcppNode* asked = ports_.first_child();
+    if (asked == nullptr || asked->kind == BtcppKind::Condition) return;
     ports_.refuse(
-        asked.place,
-        {"BT1660", fmt::format("`{}` is no condition", asked.id),
+        asked->place,
+        {"BT1660", fmt::format("`{}` is no condition", asked->id),
          "the first child of an EternalGuard stands for its condition",
          "write `<Condition ID=\"…\"/>`"});
   }
@@ -289,10 +287,8 @@ constexpr NodeTypeRow inner(std::string_view id, NodeType type,
                             std::span<const PortRow> ports = {},
                             ReadPorts read = nullptr) {
   const bool is_one = info_of(type).max_children == 1;
-  return {id,   is_one ? BtcppKind::Decorator : BtcppKind::Control,
-          type, ports,
-          0,    {},
-          read};
+  const auto kind = is_one ? BtcppKind::Decorator : BtcppKind::Control;
+  return {id, kind, type, ports, 0, {}, read};
 }
 constexpr NodeTypeRow action(std::string_view id, LeafAnswers answers,
                              std::span<const PortRow> ports = {},

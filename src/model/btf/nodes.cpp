@@ -58,21 +58,19 @@ constexpr std::array<KeywordRule, 15> kKeywords = {{
              NodeType::Wait, NodeType::RateController, NodeType::SubTree})},
 }};
 
-// A number that a type needs: its keyword, with another spelling or none.
+// A number that a type needs: its keyword, perhaps with another spelling.
 struct CountRule {
   NodeType type;
-  std::array<std::string_view, 2> names;
-  int least;
   int Node::*into;
+  int least;
+  std::string_view name;
+  std::string_view other = {};
 };
 constexpr std::array<CountRule, 4> kCounts = {{
-    {NodeType::Parallel, {"success", ""}, 1, &Node::threshold},
-    {NodeType::Repeat, {"repeat", ""}, 1, &Node::repetitions},
-    {NodeType::RetryUntilSuccessful,
-     {"num_attempts", ""},
-     1,
-     &Node::repetitions},
-    {NodeType::Recovery, {"num_retries", "retry"}, 0, &Node::repetitions},
+    {NodeType::Parallel, &Node::threshold, 1, "success"},
+    {NodeType::Repeat, &Node::repetitions, 1, "repeat"},
+    {NodeType::RetryUntilSuccessful, &Node::repetitions, 1, "num_attempts"},
+    {NodeType::Recovery, &Node::repetitions, 0, "num_retries", "retry"},
 }};
 
 std::string children(int count) {
@@ -294,7 +292,7 @@ class NodeReader {
 
   int read_count(const CountRule& rule, int most) {
     const Clause* found = nullptr;
-    for (const std::string_view name : rule.names) {
+    for (const std::string_view name : {rule.name, rule.other}) {
       const Clause* clause = name.empty() ? nullptr : clauses_.find(name);
       if (found && clause) {
         reading_.error(
@@ -305,7 +303,7 @@ class NodeReader {
       }
       if (!found) found = clause;
     }
-    if (!found) report_missing(fmt::format(":{}", rule.names[0]));
+    if (!found) report_missing(fmt::format(":{}", rule.name));
     return found
                ? clauses_.integer(*found, rule.least, most).value_or(rule.least)
                : rule.least;
@@ -390,8 +388,9 @@ class NodeReader {
 }  // namespace
 
 std::optional<NodeType> find_node_type(std::string_view word) {
-  for (const NodeTypeInfo& info : btf_node_types()) {
-    if (equal_ignoring_case(info.name, word)) return info.type;
+  for (const NodeTypeInfo& info : kNodeTypes) {
+    const bool is_here = has(info.in, In::Btf);
+    if (is_here && equal_ignoring_case(info.name, word)) return info.type;
   }
   return std::nullopt;
 }

@@ -314,14 +314,9 @@ constexpr bool is_leaf(NodeType type) {
 }
 
 // The types that .btf files have.
-inline const std::vector<NodeTypeInfo>& btf_node_types() {
-  static const std::vector<NodeTypeInfo> found = [] {
-    std::vector<NodeTypeInfo> types;
-    for (const NodeTypeInfo& info : kNodeTypes) {
-      if (has(info.in, In::Btf)) types.push_back(info);
-    }
-    return types;
-  }();
+inline std::vector<NodeTypeInfo> btf_node_types() {
+  std::vector<NodeTypeInfo> found(kNodeTypes.begin(), kNodeTypes.end());
+  std::erase_if(found, [](const auto& info) { return !has(info.in, In::Btf); });
   return found;
 }
 

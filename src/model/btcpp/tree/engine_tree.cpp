@@ -251,12 +251,9 @@ class Conversion final : PortReader {
   bool is_of_py_trees() const {
     return expansion_.document->release == BtcppRelease::PyTrees;
   }
-  std::vector<const BtcppNode*> children() const override {
-    std::vector<const BtcppNode*> children;
-    for (const std::uint32_t child : at_->children) {
-      children.push_back(expansion_.nodes[child].node);
-    }
-    return children;
+  const BtcppNode* first_child() const override {
+    const auto& children = at_->children;
+    return children.empty() ? nullptr : expansion_.nodes[children[0]].node;
   }
 
   Script script(ScriptRole role, std::string_view code) {

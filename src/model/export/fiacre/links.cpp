@@ -21,16 +21,10 @@ namespace btcheck {
 namespace {
 
 std::optional<FiacreLinkKind> kind_of(const Node& node) {
-  switch (node.type) {
-    case NodeType::Action:
-      return FiacreLinkKind::Action;
-    case NodeType::Condition:
-      return FiacreLinkKind::Condition;
-    case NodeType::SetSV:
-      return FiacreLinkKind::SetSV;
-    default:
-      return std::nullopt;
-  }
+  if (node.type == NodeType::Action) return FiacreLinkKind::Action;
+  if (node.type == NodeType::Condition) return FiacreLinkKind::Condition;
+  if (node.type == NodeType::SetSV) return FiacreLinkKind::SetSV;
+  return std::nullopt;
 }
 
 // The location from which edges lead to answers.

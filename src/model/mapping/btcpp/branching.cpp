@@ -3,7 +3,6 @@
 // IfThenElse, WhileDoElse, Switch and TryCatch (BehaviorTree.CPP 4.10,
 // src/controls/if_then_else_node.cpp, while_do_else_node.cpp,
 // try_catch_node.cpp, include/…/controls/switch_node.h; 3.8.8).
-#include <array>
 #include <string>
 #include <utility>
 
@@ -205,16 +204,14 @@ void draw_try_catch(NodeBuilder& draw) {
   build.reset(trying, build.tick(last, once, "_once"), tried);
 }
 
+constexpr Drawing kBranchingRows[] = {
+    {NodeType::IfThenElse, draw_if_then_else},
+    {NodeType::WhileDoElse, draw_while_do_else},
+    {NodeType::Switch, draw_switch},
+    {NodeType::TryCatch, draw_try_catch}};
+
 }  // namespace
 
-Family branching_drawings() {
-  static constexpr auto kRows = std::to_array<Drawing>({
-      {NodeType::IfThenElse, draw_if_then_else},
-      {NodeType::WhileDoElse, draw_while_do_else},
-      {NodeType::Switch, draw_switch},
-      {NodeType::TryCatch, draw_try_catch},
-  });
-  return kRows;
-}
+constinit const Family kBranchingDrawings = kBranchingRows;
 
 }  // namespace btcheck::mapping

@@ -227,6 +227,13 @@ void EngineBuilder::draw_own_halt(LocationId from) {
              is_reset ? idle : std::vector<Assignment>{});
 }
 
+LocationId EngineBuilder::answering(NodeStatus answer) {
+  return answer == NodeStatus::Success   ? success()
+         : answer == NodeStatus::Running ? running()
+         : answer == NodeStatus::Skipped ? at("skipped")
+                                         : failure();
+}
+
 LocationId EngineBuilder::yielding() {
   const bool is_heard =
       draw_.context().tree.node(draw_.context().tree.roots[0]).wakes;

@@ -77,6 +77,7 @@ class EngineBuilder {
   LocationId success() { return at("success"); }
   LocationId failure() { return at("failure"); }
   LocationId running() { return at("running"); }
+  LocationId answering(NodeStatus answer);
   // Answers running with a wake-up signal, so that others get their turn and
   // the tree is then ticked again at once (TreeNode::emitWakeUpSignal).
   LocationId yielding();
@@ -189,12 +190,12 @@ class EngineBuilder {
 // The leaves of a program, of py_trees as well.
 void draw_engine_leaf(NodeBuilder& draw);
 
-Family engine_leaf_drawings();
-Family engine_sequence_drawings();
-Family engine_parallel_drawings();
-Family branching_drawings();
-Family engine_decorator_drawings();
-Family time_drawings();
-Family nav2_drawings();
+extern const Family kEngineLeafDrawings;
+extern const Family kEngineSequenceDrawings;
+extern const Family kEngineParallelDrawings;
+extern const Family kBranchingDrawings;
+extern const Family kEngineDecoratorDrawings;
+extern const Family kTimeDrawings;
+extern const Family kNav2Drawings;
 
 }  // namespace btcheck::mapping

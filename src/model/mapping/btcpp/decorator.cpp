@@ -3,7 +3,6 @@
 // Decorators of BehaviorTree.CPP without a clock (src/decorators and
 // include/…/decorators of 4.10 and 3.8.8). After a tick in which its child has
 // ended, the child is idle.
-#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,19 +11,6 @@
 
 namespace btcheck::mapping {
 namespace {
-
-LocationId answer(EngineBuilder& build, NodeStatus status) {
-  switch (status) {
-    case NodeStatus::Success:
-      return build.success();
-    case NodeStatus::Running:
-      return build.running();
-    case NodeStatus::Skipped:
-      return build.at("skipped");
-    default:
-      return build.failure();
-  }
-}
 
 void draw_engine_decorator(NodeBuilder& draw) {
   const NodeType type = draw.node().type;
@@ -71,8 +57,7 @@ void draw_engine_repeat(NodeBuilder& draw) {
     return;
   }
   std::optional<VariableId> done;
-  if (rounds > 1)
-    done = draw.local("count", 0, rounds - 1, 0, LocalRole::Rounds);
+  if (rounds > 1) done = draw.rounds("count", rounds - 1);
   const std::vector<Assignment> clear = set_if_there(done, 0);
 
   const LocationId next = build.at("next");
@@ -124,7 +109,7 @@ void draw_precondition(NodeBuilder& draw) {
   if (build.is_in(releases::kPreconditionAsksAlways)) {
     build.evaluate(build.body(), draw.node().own_scripts.at(0),
                    build.tick_only_child(build.passing()),
-                   answer(build, draw.node().otherwise));
+                   build.answering(draw.node().otherwise));
     return build.on_halt();
   }
   const VariableId active = draw.local("active", 0, 1, 0);
@@ -134,7 +119,7 @@ void draw_precondition(NodeBuilder& draw) {
   draw.edge(passed, calling, {}, {set(active, 1)});
   draw.edge(build.body(), calling, equals(active, 1));
   build.evaluate(build.body(), draw.node().own_scripts.at(0), passed,
-                 answer(build, draw.node().otherwise), equals(active, 0));
+                 build.answering(draw.node().otherwise), equals(active, 0));
   build.on_halt();
 }
 
@@ -161,7 +146,7 @@ void draw_run_once(NodeBuilder& draw) {
 void draw_loop(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const int elements = draw.node().repetitions;
-  const LocationId empty = answer(build, draw.node().otherwise);
+  const LocationId empty = build.answering(draw.node().otherwise);
   const LocationId next = build.at("next");
   const VariableId active = draw.local("active", 0, 1, 0);
   std::optional<VariableId> taken;
@@ -212,7 +197,7 @@ void draw_when_updated(NodeBuilder& draw) {
   }
   const LocationId calling = build.tick_only_child(std::move(reactions));
   draw.choice(build.body(), calling, {}, {}, "the entry has been written");
-  draw.choice(build.body(), answer(build, draw.node().otherwise),
+  draw.choice(build.body(), build.answering(draw.node().otherwise),
               equals(active, 0), {}, "the entry is as it was");
   if (build.is_in(releases::kUpdatedKeepsChild)) {
     draw.edge(build.at("halt"), build.at("halted"), {}, {set(active, 0)});
@@ -227,7 +212,7 @@ void draw_blackboard_check(NodeBuilder& draw) {
   const LocationId calling = build.tick_only_child(build.passing());
   const LocationId differ = build.at("differ");
   build.choose(build.body(), draw.node().own_scripts.at(0), calling, differ);
-  build.reset_all(differ, answer(build, draw.node().otherwise));
+  build.reset_all(differ, build.answering(draw.node().otherwise));
   build.on_halt();
 }
 
@@ -273,27 +258,25 @@ void draw_other_node(NodeBuilder& draw) {
   build.on_halt();
 }
 
+constexpr Drawing kEngineDecoratorRows[] = {
+    {NodeType::Inverter, draw_engine_decorator},
+    {NodeType::ForceSuccess, draw_engine_decorator},
+    {NodeType::ForceFailure, draw_engine_decorator},
+    {NodeType::KeepRunningUntilFailure, draw_engine_decorator},
+    {NodeType::SubTree, draw_engine_decorator},
+    {NodeType::GoalUpdater, draw_engine_decorator},
+    {NodeType::Repeat, draw_engine_repeat},
+    {NodeType::RetryUntilSuccessful, draw_engine_repeat},
+    {NodeType::Precondition, draw_precondition},
+    {NodeType::RunOnce, draw_run_once},
+    {NodeType::Loop, draw_loop},
+    {NodeType::WhenUpdated, draw_when_updated},
+    {NodeType::BlackboardCheck, draw_blackboard_check},
+    {NodeType::OtherControl, draw_other_node},
+    {NodeType::OtherDecorator, draw_other_node}};
+
 }  // namespace
 
-Family engine_decorator_drawings() {
-  static constexpr auto kRows = std::to_array<Drawing>({
-      {NodeType::Inverter, draw_engine_decorator},
-      {NodeType::ForceSuccess, draw_engine_decorator},
-      {NodeType::ForceFailure, draw_engine_decorator},
-      {NodeType::KeepRunningUntilFailure, draw_engine_decorator},
-      {NodeType::SubTree, draw_engine_decorator},
-      {NodeType::GoalUpdater, draw_engine_decorator},
-      {NodeType::Repeat, draw_engine_repeat},
-      {NodeType::RetryUntilSuccessful, draw_engine_repeat},
-      {NodeType::Precondition, draw_precondition},
-      {NodeType::RunOnce, draw_run_once},
-      {NodeType::Loop, draw_loop},
-      {NodeType::WhenUpdated, draw_when_updated},
-      {NodeType::BlackboardCheck, draw_blackboard_check},
-      {NodeType::OtherControl, draw_other_node},
-      {NodeType::OtherDecorator, draw_other_node},
-  });
-  return kRows;
-}
+constinit const Family kEngineDecoratorDrawings = kEngineDecoratorRows;
 
 }  // namespace btcheck::mapping

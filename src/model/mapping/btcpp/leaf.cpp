@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -398,16 +397,14 @@ void draw_engine_root(NodeBuilder& draw) {
   ends(NodeStatus::SkippedRunning, "skipped", loops);
 }
 
+constexpr Drawing kEngineLeafRows[] = {
+    {NodeType::BehaviorTree, draw_engine_root},
+    {NodeType::Action, draw_engine_leaf},
+    {NodeType::Condition, draw_engine_leaf},
+    {NodeType::Script, draw_script}};
+
 }  // namespace
 
-Family engine_leaf_drawings() {
-  static constexpr auto kRows = std::to_array<Drawing>({
-      {NodeType::BehaviorTree, draw_engine_root},
-      {NodeType::Action, draw_engine_leaf},
-      {NodeType::Condition, draw_engine_leaf},
-      {NodeType::Script, draw_script},
-  });
-  return kRows;
-}
+constinit const Family kEngineLeafDrawings = kEngineLeafRows;
 
 }  // namespace btcheck::mapping

@@ -32,8 +32,7 @@ void draw_recovery_node(NodeBuilder& draw) {
   constexpr std::size_t kWork = 0;
   constexpr std::size_t kRecovery = 1;
   std::optional<VariableId> retry;
-  if (retries > 0)
-    retry = draw.local("retry", 0, retries, 0, LocalRole::Rounds);
+  if (retries > 0) retry = draw.rounds("retry", retries);
   const VariableId next = draw.local("next", 1, 2, 1);
   const std::vector<Assignment> fresh =
       joined({set(next, 1)}, set_if_there(retry, 0));
@@ -300,20 +299,18 @@ void draw_single_trigger(NodeBuilder& draw) {
   build.on_halt();
 }
 
+constexpr Drawing kNav2Rows[] = {
+    {NodeType::Recovery, draw_recovery_node},
+    {NodeType::RoundRobin, draw_engine_round_robin},
+    {NodeType::PipelineSequence, draw_engine_pipeline},
+    {NodeType::NonblockingSequence, draw_nonblocking_sequence},
+    {NodeType::PauseResumeController, draw_pause_resume},
+    {NodeType::WhenDue, draw_when_due},
+    {NodeType::PathLongerOnApproach, draw_path_longer_on_approach},
+    {NodeType::SingleTrigger, draw_single_trigger}};
+
 }  // namespace
 
-Family nav2_drawings() {
-  static constexpr auto kRows = std::to_array<Drawing>({
-      {NodeType::Recovery, draw_recovery_node},
-      {NodeType::RoundRobin, draw_engine_round_robin},
-      {NodeType::PipelineSequence, draw_engine_pipeline},
-      {NodeType::NonblockingSequence, draw_nonblocking_sequence},
-      {NodeType::PauseResumeController, draw_pause_resume},
-      {NodeType::WhenDue, draw_when_due},
-      {NodeType::PathLongerOnApproach, draw_path_longer_on_approach},
-      {NodeType::SingleTrigger, draw_single_trigger},
-  });
-  return kRows;
-}
+constinit const Family kNav2Drawings = kNav2Rows;
 
 }  // namespace btcheck::mapping

@@ -4,8 +4,6 @@
 // parallel_all_node.cpp of 4.10; parallel_node.cpp of 3.8.8). Children are
 // ticked from left to right, except those that have ended. Whether one has
 // ended, its status says, since only the Parallel resets it.
-#include <array>
-
 #include "model/mapping/btcpp/builder.hpp"
 
 namespace btcheck::mapping {
@@ -142,14 +140,12 @@ void draw_engine_parallel_all(NodeBuilder& draw) {
   build.on_halt({set(failed, 0)});
 }
 
+constexpr Drawing kEngineParallelRows[] = {
+    {NodeType::Parallel, draw_engine_parallel},
+    {NodeType::ParallelAll, draw_engine_parallel_all}};
+
 }  // namespace
 
-Family engine_parallel_drawings() {
-  static constexpr auto kRows = std::to_array<Drawing>({
-      {NodeType::Parallel, draw_engine_parallel},
-      {NodeType::ParallelAll, draw_engine_parallel_all},
-  });
-  return kRows;
-}
+constinit const Family kEngineParallelDrawings = kEngineParallelRows;
 
 }  // namespace btcheck::mapping

@@ -7,8 +7,6 @@
 // the child whose turn it is, `skipped` the number that answered skipped. That
 // is counted only where it can reach the number of children. Some may count
 // twice, since only a node that is idle or has been halted starts from 0.
-#include <array>
-
 #include "model/mapping/btcpp/builder.hpp"
 
 namespace btcheck::mapping {
@@ -263,20 +261,18 @@ void draw_engine_reactive(NodeBuilder& draw) {
   build.on_halt();
 }
 
+constexpr Drawing kEngineSequenceRows[] = {
+    {NodeType::Sequence, draw_engine_sequence},
+    {NodeType::Fallback, draw_engine_sequence},
+    {NodeType::SequenceWithMemory, draw_engine_sequence},
+    {NodeType::AsyncSequence, draw_engine_sequence},
+    {NodeType::AsyncFallback, draw_engine_sequence},
+    {NodeType::PersistentSequence, draw_engine_sequence},
+    {NodeType::ReactiveSequence, draw_engine_reactive},
+    {NodeType::ReactiveFallback, draw_engine_reactive}};
+
 }  // namespace
 
-Family engine_sequence_drawings() {
-  static constexpr auto kRows = std::to_array<Drawing>({
-      {NodeType::Sequence, draw_engine_sequence},
-      {NodeType::Fallback, draw_engine_sequence},
-      {NodeType::SequenceWithMemory, draw_engine_sequence},
-      {NodeType::AsyncSequence, draw_engine_sequence},
-      {NodeType::AsyncFallback, draw_engine_sequence},
-      {NodeType::PersistentSequence, draw_engine_sequence},
-      {NodeType::ReactiveSequence, draw_engine_reactive},
-      {NodeType::ReactiveFallback, draw_engine_reactive},
-  });
-  return kRows;
-}
+constinit const Family kEngineSequenceDrawings = kEngineSequenceRows;
 
 }  // namespace btcheck::mapping

@@ -4,8 +4,6 @@
 // src/decorators/timeout_node.cpp, delay_node.cpp, src/actions/sleep_node.cpp)
 // and Nav2's RateController. Their durations are whole ticks of the root; each
 // has a companion timer.
-#include <array>
-
 #include "model/mapping/btcpp/builder.hpp"
 
 namespace btcheck::mapping {
@@ -193,16 +191,14 @@ void draw_engine_rate_controller(NodeBuilder& draw) {
                          : std::vector<Assignment>{timer.stop()});
 }
 
+constexpr Drawing kTimeRows[] = {
+    {NodeType::Timeout, draw_timeout},
+    {NodeType::Delay, draw_delay},
+    {NodeType::Wait, draw_sleep},
+    {NodeType::RateController, draw_engine_rate_controller}};
+
 }  // namespace
 
-Family time_drawings() {
-  static constexpr auto kRows = std::to_array<Drawing>({
-      {NodeType::Timeout, draw_timeout},
-      {NodeType::Delay, draw_delay},
-      {NodeType::Wait, draw_sleep},
-      {NodeType::RateController, draw_engine_rate_controller},
-  });
-  return kRows;
-}
+constinit const Family kTimeDrawings = kTimeRows;
 
 }  // namespace btcheck::mapping

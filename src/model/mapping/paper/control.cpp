@@ -4,8 +4,6 @@
 // sections 3.4, 3.5 and 3.8.1, figures 9 and 18; the listing of appendix B),
 // parallels (section 3.6, figure 19), and those that Nav2 adds (sections 5.2.1
 // and 5.2.2).
-#include <array>
-
 #include "model/mapping/paper/drawings.hpp"
 
 namespace btcheck::mapping {
@@ -212,7 +210,7 @@ void draw_recovery(NodeBuilder& draw) {
   constexpr std::size_t kRecovery = 1;
 
   draw.frame();
-  VariableId retry = draw.local("retry", 0, retries, 0, LocalRole::Rounds);
+  VariableId retry = draw.rounds("retry", retries);
   VariableId next = draw.local("next", 1, 2, 1);
   std::vector<Assignment> reset = {set(retry, 0), set(next, 1)};
   LocationId from = draw.decide();
@@ -291,22 +289,20 @@ void draw_pipeline_sequence(NodeBuilder& draw) {
   draw.on_halt({set(furthest, 1)});
 }
 
+constexpr Drawing kControlRows[] = {
+    {NodeType::Sequence, draw_sequence},
+    {NodeType::Fallback, draw_sequence},
+    {NodeType::SequenceWithMemory, draw_sequence},
+    {NodeType::ReactiveSequence, draw_reactive},
+    {NodeType::ReactiveFallback, draw_reactive},
+    {NodeType::Parallel, draw_parallel},
+    {NodeType::ParallelAll, draw_parallel},
+    {NodeType::Recovery, draw_recovery},
+    {NodeType::RoundRobin, draw_round_robin},
+    {NodeType::PipelineSequence, draw_pipeline_sequence}};
+
 }  // namespace
 
-Family control_drawings() {
-  static constexpr auto kRows = std::to_array<Drawing>({
-      {NodeType::Sequence, draw_sequence},
-      {NodeType::Fallback, draw_sequence},
-      {NodeType::SequenceWithMemory, draw_sequence},
-      {NodeType::ReactiveSequence, draw_reactive},
-      {NodeType::ReactiveFallback, draw_reactive},
-      {NodeType::Parallel, draw_parallel},
-      {NodeType::ParallelAll, draw_parallel},
-      {NodeType::Recovery, draw_recovery},
-      {NodeType::RoundRobin, draw_round_robin},
-      {NodeType::PipelineSequence, draw_pipeline_sequence},
-  });
-  return kRows;
-}
+constinit const Family kControlDrawings = kControlRows;
 
 }  // namespace btcheck::mapping

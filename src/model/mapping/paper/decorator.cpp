@@ -4,20 +4,23 @@
 // it (paper, section 3.7, figure 10), and the root, which makes the ticks
 // (section 3.8.2). Decorators always pass running on; halting one halts the
 // child if it runs and clears the counter. SubTree passes everything on.
-#include <array>
-
 #include "model/mapping/paper/drawings.hpp"
 
 namespace btcheck::mapping {
 namespace {
 
-// Its answers to what its child may answer.
-void draw_decorator(NodeBuilder& draw, std::string_view on_success,
-                    std::string_view on_failure) {
+using enum NodeStatus;
+
+// What it answers when its child succeeds, and when it fails.
+template <NodeStatus on_success, NodeStatus on_failure>
+void draw_decorator(NodeBuilder& draw) {
+  const auto answering = [&](NodeStatus answer) {
+    return draw.at(kStatusNames[static_cast<int>(answer)]);
+  };
   draw.frame();
   draw.edge(draw.decide(), draw.call(0));
-  draw.on_answer(0, NodeStatus::Success, draw.at(on_success));
-  draw.on_answer(0, NodeStatus::Failure, draw.at(on_failure));
+  draw.on_answer(0, NodeStatus::Success, answering(on_success));
+  draw.on_answer(0, NodeStatus::Failure, answering(on_failure));
   draw.on_answer(0, NodeStatus::Running, draw.at("running"));
   draw.on_halt();
 }
@@ -31,7 +34,7 @@ void draw_counting_decorator(NodeBuilder& draw) {
   const int rounds = draw.node().repetitions;
 
   draw.frame();
-  VariableId count = draw.local("count", 0, rounds - 1, 0, LocalRole::Rounds);
+  VariableId count = draw.rounds("count", rounds - 1);
   draw.edge(draw.decide(), draw.call(0));
   for (int done = 0; done + 1 < rounds; ++done) {
     draw.on_answer(0, again, draw.call(0), {set(count, done + 1)},
@@ -105,27 +108,20 @@ void draw_root(NodeBuilder& draw) {
   ends(NodeStatus::Failure, draw.node().loop);
 }
 
+constexpr Drawing kDecoratorRows[] = {
+    {NodeType::BehaviorTree, draw_root},
+    {NodeType::Inverter, draw_decorator<Failure, Success>},
+    {NodeType::ForceSuccess, draw_decorator<Success, Success>},
+    {NodeType::ForceFailure, draw_decorator<Failure, Failure>},
+    {NodeType::KeepRunningUntilFailure, draw_decorator<Running, Failure>},
+    {NodeType::Repeat, draw_counting_decorator},
+    {NodeType::RetryUntilSuccessful, draw_counting_decorator},
+    {NodeType::RateController, draw_rate_controller},
+    {NodeType::SubTree, draw_decorator<Success, Failure>},
+    {NodeType::Timeout, draw_time_limit}};
+
 }  // namespace
 
-Family decorator_drawings() {
-  static constexpr auto kRows = std::to_array<Drawing>({
-      {NodeType::BehaviorTree, draw_root},
-      {NodeType::Inverter,
-       [](NodeBuilder& draw) { draw_decorator(draw, "failure", "success"); }},
-      {NodeType::ForceSuccess,
-       [](NodeBuilder& draw) { draw_decorator(draw, "success", "success"); }},
-      {NodeType::ForceFailure,
-       [](NodeBuilder& draw) { draw_decorator(draw, "failure", "failure"); }},
-      {NodeType::KeepRunningUntilFailure,
-       [](NodeBuilder& draw) { draw_decorator(draw, "running", "failure"); }},
-      {NodeType::Repeat, draw_counting_decorator},
-      {NodeType::RetryUntilSuccessful, draw_counting_decorator},
-      {NodeType::RateController, draw_rate_controller},
-      {NodeType::SubTree,
-       [](NodeBuilder& draw) { draw_decorator(draw, "success", "failure"); }},
-      {NodeType::Timeout, draw_time_limit},
-  });
-  return kRows;
-}
+constinit const Family kDecoratorDrawings = kDecoratorRows;
 
 }  // namespace btcheck::mapping

@@ -7,8 +7,8 @@
 
 namespace btcheck::mapping {
 
-Family leaf_drawings();
-Family control_drawings();
-Family decorator_drawings();
+extern const Family kLeafDrawings;
+extern const Family kControlDrawings;
+extern const Family kDecoratorDrawings;
 
 }  // namespace btcheck::mapping

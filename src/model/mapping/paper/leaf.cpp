@@ -5,8 +5,6 @@
 // contract allows can happen each time it is ticked. A leaf with a :duration
 // has a companion timer; until it is due the leaf answers running.
 #include <algorithm>
-#include <array>
-
 #include "model/mapping/paper/drawings.hpp"
 
 namespace btcheck::mapping {
@@ -247,17 +245,14 @@ void draw_wait(NodeBuilder& draw) {
   });
 }
 
+constexpr Drawing kLeafRows[] = {{NodeType::Action, draw_action},
+                                 {NodeType::Condition, draw_condition},
+                                 {NodeType::SetSV, draw_set_state_variable},
+                                 {NodeType::Eval, draw_eval},
+                                 {NodeType::Wait, draw_wait}};
+
 }  // namespace
 
-Family leaf_drawings() {
-  static constexpr auto kRows = std::to_array<Drawing>({
-      {NodeType::Action, draw_action},
-      {NodeType::Condition, draw_condition},
-      {NodeType::SetSV, draw_set_state_variable},
-      {NodeType::Eval, draw_eval},
-      {NodeType::Wait, draw_wait},
-  });
-  return kRows;
-}
+constinit const Family kLeafDrawings = kLeafRows;
 
 }  // namespace btcheck::mapping

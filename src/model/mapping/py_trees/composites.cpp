@@ -2,7 +2,6 @@
 //
 // Sequence, Selector, Parallel and EternalGuard of py_trees. Whether the node
 // begins anew says its own status before the tick: it does unless it runs.
-#include <array>
 #include <string>
 #include <utility>
 
@@ -145,18 +144,16 @@ void draw_py_trees_guard(NodeBuilder& draw) {
   build.on_stop();
 }
 
+constexpr Drawing kPyTreesCompositeRows[] = {
+    {NodeType::Sequence, draw_py_trees_sequence},
+    {NodeType::ReactiveSequence, draw_py_trees_sequence},
+    {NodeType::Fallback, draw_py_trees_selector},
+    {NodeType::ReactiveFallback, draw_py_trees_selector},
+    {NodeType::PolicyParallel, draw_py_trees_parallel},
+    {NodeType::EternalGuard, draw_py_trees_guard}};
+
 }  // namespace
 
-Family py_trees_composite_drawings() {
-  static constexpr auto kRows = std::to_array<Drawing>({
-      {NodeType::Sequence, draw_py_trees_sequence},
-      {NodeType::ReactiveSequence, draw_py_trees_sequence},
-      {NodeType::Fallback, draw_py_trees_selector},
-      {NodeType::ReactiveFallback, draw_py_trees_selector},
-      {NodeType::PolicyParallel, draw_py_trees_parallel},
-      {NodeType::EternalGuard, draw_py_trees_guard},
-  });
-  return kRows;
-}
+constinit const Family kPyTreesCompositeDrawings = kPyTreesCompositeRows;
 
 }  // namespace btcheck::mapping

@@ -2,7 +2,6 @@
 //
 // Decorators of py_trees. Each ticks its child first; when it ends while its
 // child runs, it stops that. A child that has ended keeps its status.
-#include <array>
 #include <optional>
 #include <utility>
 
@@ -10,6 +9,8 @@
 
 namespace btcheck::mapping {
 namespace {
+
+using enum NodeStatus;
 
 // Stops its child, which runs, and answers.
 LocationId stopping(PyTreesBuilder& build, LocationId answer,
@@ -33,6 +34,12 @@ void draw_map(NodeBuilder& draw, const AnswerTable& becomes) {
   build.on_stop();
 }
 
+void draw_answer_map(NodeBuilder& draw) { draw_map(draw, draw.node().becomes); }
+template <NodeStatus on_success, NodeStatus on_failure>
+void draw_map(NodeBuilder& draw) {
+  draw_map(draw, {on_success, on_failure});
+}
+
 // Repeat and Retry: one round a tick. `count` counts the rounds that are done.
 void draw_py_trees_rounds(NodeBuilder& draw) {
   PyTreesBuilder build(draw);
@@ -40,8 +47,7 @@ void draw_py_trees_rounds(NodeBuilder& draw) {
   const int rounds = draw.node().repetitions;
   const LocationId over = repeats ? build.success() : build.failure();
   std::optional<VariableId> done;
-  if (rounds > 1)
-    done = draw.local("count", 0, rounds - 1, 0, LocalRole::Rounds);
+  if (rounds > 1) done = draw.rounds("count", rounds - 1);
   const std::vector<Assignment> clear = set_if_there(done, 0);
   std::vector<Reaction> counted = {{rounds < 0 ? build.running() : over}};
   if (done) {
@@ -107,36 +113,20 @@ void draw_py_trees_timeout(NodeBuilder& draw) {
   build.on_stop(ends);
 }
 
+constexpr Drawing kPyTreesDecoratorRows[] = {
+    {NodeType::Inverter, draw_map<Failure, Success>},
+    {NodeType::ForceSuccess, draw_map<Success, Success>},
+    {NodeType::ForceFailure, draw_map<Failure, Failure>},
+    {NodeType::KeepRunningUntilFailure, draw_map<Running, Failure>},
+    {NodeType::SubTree, draw_map<Success, Failure>},
+    {NodeType::AnswerMap, draw_answer_map},
+    {NodeType::Repeat, draw_py_trees_rounds},
+    {NodeType::RetryUntilSuccessful, draw_py_trees_rounds},
+    {NodeType::RunOnce, draw_py_trees_one_shot},
+    {NodeType::Timeout, draw_py_trees_timeout}};
+
 }  // namespace
 
-Family py_trees_decorator_drawings() {
-  using enum NodeStatus;
-  static constexpr auto kRows = std::to_array<Drawing>({
-      {NodeType::Inverter,
-       [](NodeBuilder& draw) {
-         draw_map(draw, {Failure, Success});
-       }},
-      {NodeType::ForceSuccess,
-       [](NodeBuilder& draw) {
-         draw_map(draw, {Success, Success});
-       }},
-      {NodeType::ForceFailure,
-       [](NodeBuilder& draw) {
-         draw_map(draw, {Failure, Failure});
-       }},
-      {NodeType::KeepRunningUntilFailure,
-       [](NodeBuilder& draw) {
-         draw_map(draw, {Running, Failure});
-       }},
-      {NodeType::SubTree, [](NodeBuilder& draw) { draw_map(draw, {}); }},
-      {NodeType::AnswerMap,
-       [](NodeBuilder& draw) { draw_map(draw, draw.node().becomes); }},
-      {NodeType::Repeat, draw_py_trees_rounds},
-      {NodeType::RetryUntilSuccessful, draw_py_trees_rounds},
-      {NodeType::RunOnce, draw_py_trees_one_shot},
-      {NodeType::Timeout, draw_py_trees_timeout},
-  });
-  return kRows;
-}
+constinit const Family kPyTreesDecoratorDrawings = kPyTreesDecoratorRows;
 
 }  // namespace btcheck::mapping

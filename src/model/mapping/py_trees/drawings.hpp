@@ -18,9 +18,6 @@ class PyTreesBuilder : public EngineBuilder {
   explicit PyTreesBuilder(NodeBuilder& draw)
       : EngineBuilder(draw, Begins::Silently) {}
 
-  // Where it has given this answer: success, failure or else running.
-  LocationId answering(NodeStatus answer);
-
   // That this child, and all below it, are INVALID.
   std::vector<Assignment> invalid(std::size_t child);
   std::vector<Assignment> invalid(const std::vector<std::size_t>& of);
@@ -36,8 +33,8 @@ class PyTreesBuilder : public EngineBuilder {
   void on_stop(std::vector<Assignment> updates = {});
 };
 
-Family py_trees_leaf_drawings();
-Family py_trees_composite_drawings();
-Family py_trees_decorator_drawings();
+extern const Family kPyTreesLeafDrawings;
+extern const Family kPyTreesCompositeDrawings;
+extern const Family kPyTreesDecoratorDrawings;
 
 }  // namespace btcheck::mapping

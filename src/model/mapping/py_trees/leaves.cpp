@@ -2,7 +2,6 @@
 //
 // Behaviours of py_trees that answer by a rule of their own. All others are
 // leaves like those of BehaviorTree.CPP that run anew on every tick.
-#include <array>
 #include <optional>
 
 #include "model/mapping/py_trees/drawings.hpp"
@@ -76,17 +75,15 @@ void draw_py_trees_root(NodeBuilder& draw) {
   ends(NodeStatus::Running, "running");
 }
 
+constexpr Drawing kPyTreesLeafRows[] = {
+    {NodeType::BehaviorTree, draw_py_trees_root},
+    {NodeType::Action, draw_engine_leaf},
+    {NodeType::Condition, draw_engine_leaf},
+    {NodeType::Wait, draw_py_trees_timer},
+    {NodeType::AnswerQueue, draw_py_trees_queue}};
+
 }  // namespace
 
-Family py_trees_leaf_drawings() {
-  static constexpr auto kRows = std::to_array<Drawing>({
-      {NodeType::BehaviorTree, draw_py_trees_root},
-      {NodeType::Action, draw_engine_leaf},
-      {NodeType::Condition, draw_engine_leaf},
-      {NodeType::Wait, draw_py_trees_timer},
-      {NodeType::AnswerQueue, draw_py_trees_queue},
-  });
-  return kRows;
-}
+constinit const Family kPyTreesLeafDrawings = kPyTreesLeafRows;
 
 }  // namespace btcheck::mapping

@@ -8,12 +8,6 @@
 
 namespace btcheck::mapping {
 
-LocationId PyTreesBuilder::answering(NodeStatus answer) {
-  return answer == NodeStatus::Success   ? success()
-         : answer == NodeStatus::Failure ? failure()
-                                         : running();
-}
-
 std::vector<Assignment> PyTreesBuilder::invalid(std::size_t child) {
   const Context& context = draw().context();
   const BehaviorTree& tree = context.tree;
