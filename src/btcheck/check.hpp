@@ -223,6 +223,9 @@ class Report {
   std::uint64_t states = 0;  // the most that a search has stored
   std::string stopped;       // "timeout", "max-states", ...; "" for no limit
   std::vector<Finding> findings;
+  // Findings that are not told: a comment at the node or the settings allow
+  // them.
+  std::size_t allowed = 0;
   std::vector<Rule> rules;
   std::vector<Answer> answers;
   std::vector<Node> nodes;
