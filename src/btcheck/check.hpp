@@ -365,7 +365,9 @@ Report lint(const Request& request, Sources& sources,
 Description describe(const Request& request, Sources& sources,
                      Monitor* monitor = nullptr);
 
-// One run. Rules are not read.
+// One run. Rules are not read. A tick that does not return goes on until a
+// limit or the monitor ends it, and then the run is told as far as it went: the
+// longer it is, the longer that takes.
 Simulation simulate(const Request& request, const Plan& plan, Sources& sources,
                     Monitor* monitor = nullptr);
 
