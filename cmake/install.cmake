@@ -30,6 +30,20 @@ target_include_directories(btcheck_door INTERFACE
 target_compile_features(btcheck_door INTERFACE cxx_std_20)
 target_link_libraries(btcheck_door INTERFACE btcheck_library Threads::Threads)
 
+# The same for C and for languages that call C, as one file to load.
+option(BTCHECK_SHARED "build and install libbtcheck_c.so, for btcheck/check.h" OFF)
+add_library(btcheck_shared SHARED EXCLUDE_FROM_ALL $<TARGET_OBJECTS:btcheck_api>)
+set_target_properties(btcheck_shared PROPERTIES OUTPUT_NAME btcheck_c
+  EXPORT_NAME c LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION} SOVERSION 1)
+target_link_libraries(btcheck_shared PRIVATE btcheck_api)
+target_link_options(btcheck_shared PRIVATE
+  -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/check_h.map)
+if(BTCHECK_SHARED)
+  set_target_properties(btcheck_shared PROPERTIES EXCLUDE_FROM_ALL OFF)
+  install(TARGETS btcheck_shared LIBRARY COMPONENT library
+    DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endif()
+
 # The engine that runs trees, with the one header that its users need.
 add_library(btcheck_engine STATIC $<TARGET_OBJECTS:btcheck_run>)
 set_target_properties(btcheck_engine PROPERTIES
@@ -125,7 +139,8 @@ install(TARGETS btcheck_library btcheck_door btcheck_engine EXPORT btcheck_libra
   COMPONENT library ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} OPTIONAL)
 tell_missing(library $<TARGET_FILE:btcheck_engine>
   "no library: the targets btcheck_library and btcheck_engine were not built")
-install(FILES src/btcheck/check.hpp src/btcheck/run.hpp COMPONENT library
+install(FILES src/btcheck/check.h src/btcheck/check.hpp src/btcheck/run.hpp
+  COMPONENT library
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/btcheck)
 foreach(folder text model explore ltl check trace)
   install(DIRECTORY src/${folder} COMPONENT library

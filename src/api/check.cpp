@@ -54,6 +54,7 @@ Report report_of(const CheckResult& result, const std::string& tree,
   for (const btcheck::Finding& finding : all_findings(told)) {
     report.findings.push_back(finding_of(finding));
   }
+  report.allowed = result.judged.allowed;
   for (const CheckedFile& file : result.files) {
     const StopReason reason = stopped_by(file);
     if (reason != StopReason::None) stopped = reason;

@@ -223,6 +223,9 @@ class Report {
   std::uint64_t states = 0;  // the most that a search has stored
   std::string stopped;       // "timeout", "max-states", ...; "" for no limit
   std::vector<Finding> findings;
+  // Findings that are not told: a comment at the node or the settings allow
+  // them.
+  std::size_t allowed = 0;
   std::vector<Rule> rules;
   std::vector<Answer> answers;
   std::vector<Node> nodes;
@@ -362,7 +365,9 @@ Report lint(const Request& request, Sources& sources,
 Description describe(const Request& request, Sources& sources,
                      Monitor* monitor = nullptr);
 
-// One run. Rules are not read.
+// One run. Rules are not read. A tick that does not return goes on until a
+// limit or the monitor ends it, and then the run is told as far as it went: the
+// longer it is, the longer that takes.
 Simulation simulate(const Request& request, const Plan& plan, Sources& sources,
                     Monitor* monitor = nullptr);
 

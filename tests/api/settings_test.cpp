@@ -88,6 +88,18 @@ TEST_CASE("levels, denials, contracts, enumerators and profile of settings") {
   }
 }
 
+TEST_CASE("what settings allow is not told, and counted") {
+  v1::Files files = files_of(
+      {{"a.xml", kTree}, {"btcheck.toml", "[levels]\nBT2211 = \"allow\"\n"}});
+  const v1::Report report = v1::check(request_for("a.xml"), files);
+  CHECK(report.allowed > 0);
+  CHECK(std::ranges::count(report.findings, "BT2211", &v1::Finding::code) == 0);
+  files.add("btcheck.toml", "");
+  const v1::Report all = v1::check(request_for("a.xml"), files);
+  CHECK(all.allowed == 0);
+  CHECK(all.findings.size() > report.findings.size());
+}
+
 TEST_CASE("without settings, and with wrong ones") {
   same_as_program({{"a.xml", kTree}}, "a.xml");
   for (const char* wrong :

@@ -6,8 +6,9 @@
 # lines that leaves and monitors exchange. Each member of a schema must have
 # been written by something here, and none may be missing or new. A third of the
 # trees is looked at, and more for as long as a member was written by none.
-#   schemas_test.py BTCHECK SOURCES
+#   schemas_test.py BTCHECK LIBRARY SOURCES
 import copy
+import ctypes
 import itertools
 import json
 import subprocess
@@ -22,7 +23,7 @@ try:
 except ImportError:
     sys.exit("python3-jsonschema is missing: script/setup installs it")
 
-program, sources = (Path(word).resolve() for word in sys.argv[1:])
+program, library, sources = (Path(word).resolve() for word in sys.argv[1:])
 regress = sources / "tests/regress"
 validators = {}
 documents = defaultdict(list)  # by schema
@@ -119,6 +120,25 @@ def look_at_monitors():
         lines("monitor-answer", answers, folder.name)
 
 
+def look_at_library():
+    """What btcheck/check.h tells and the program does not."""
+    door = ctypes.CDLL(library)
+    for name in ("request_new", "describe", "simulate"):
+        getattr(door, f"btcheck_{name}").restype = ctypes.c_void_p
+    door.btcheck_report_json.restype = ctypes.c_char_p
+    for tree in sorted(regress.glob("*/tree.btf"))[::9] + sorted(regress.glob("*/tree.xml"))[::9]:
+        request = ctypes.c_void_p(door.btcheck_request_new())
+        text = tree.read_bytes()
+        door.btcheck_add_file(request, tree.name.encode(), text, ctypes.c_size_t(len(text)))
+        for name, value in (("tree", tree.name), ("seed", "1"), ("run_ticks", "9")):
+            door.btcheck_set(request, name.encode(), value.encode())
+        for call, schema in (("describe", "description"), ("simulate", "simulation")):
+            report = ctypes.c_void_p(getattr(door, f"btcheck_{call}")(request))
+            written(schema, door.btcheck_report_json(report), f"{tree.parent.name} {call}")
+            door.btcheck_report_free(report)
+        door.btcheck_request_free(request)
+
+
 def look_at_batches(out):
     for folder in (regress / "workspace", sources / "properties/action"):
         report = btcheck(folder.parent, "batch", folder.name, "-q", "--format", "json",
@@ -197,6 +217,7 @@ with tempfile.TemporaryDirectory() as name:
     look_at_leaves(out)
     look_at_monitors()
     look_at_included(out)
+    look_at_library()
     look_at_batches(out)
     trees = sorted(file for form in ("btf", "xml") for file in regress.glob(f"*/tree.{form}"))
     third = trees[::3]

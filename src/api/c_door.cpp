@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: MIT
+//
+// The door for C: every function catches all that is thrown.
+#include <fmt/format.h>
+
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "btcheck/check.h"
+#include "btcheck/check.hpp"
+#include "text/json.hpp"
+#include "text/numbers.hpp"
+
+namespace v1 = btcheck::v1;
+
+struct btcheck_text {
+  std::optional<std::string> text;
+  bool has_failed = false;
+};
+
+struct btcheck_request {
+  v1::Request request;
+  v1::Plan plan;
+  std::string settings;
+  mutable v1::Files files;  // its questions change nothing
+  btcheck_source source = nullptr;
+  void* source_context = nullptr;
+  btcheck_monitor monitor = nullptr;
+  void* monitor_context = nullptr;
+  std::string error;
+};
+
+struct btcheck_report {
+  v1::Outcome outcome = v1::Outcome::BadInput;
+  std::string json;
+  std::string error;
+  // Made when they are asked for: a run may be long.
+  std::function<std::string()> make_sarif;
+  std::function<std::string()> make_itf;
+  mutable std::optional<std::string> sarif;
+  mutable std::optional<std::string> itf;
+  mutable std::mutex making;
+};
+
+namespace btcheck::v1 {
+namespace {
+
+class CSources final : public Sources {
+ public:
+  explicit CSources(const btcheck_request& request) : request_(request) {}
+
+  std::optional<std::string> text(const std::string& name) override {
+    auto known = request_.files.text(name);
+    if (known || request_.source == nullptr) return known;
+    btcheck_text asked;
+    const int is_there =
+        request_.source(request_.source_context, name.c_str(), &asked);
+    if (asked.has_failed) throw std::bad_alloc();
+    return is_there != 0 ? std::move(asked.text) : std::nullopt;
+  }
+  std::vector<std::string> files() override { return request_.files.files(); }
+  std::string package(const std::string& name) override {
+    return request_.files.package(name);
+  }
+  std::optional<NamedText> settings(const std::string& tree) override {
+    const std::string& name = request_.settings;
+    if (name.empty()) return request_.files.settings(tree);
+    auto found = text(name);
+    if (!found) {
+      throw std::invalid_argument(
+          fmt::format("btcheck: there are no settings `{}`", name));
+    }
+    return NamedText{name, std::move(*found)};
+  }
+
+ private:
+  const btcheck_request& request_;
+};
+
+class CMonitor final : public Monitor {
+ public:
+  explicit CMonitor(const btcheck_request& request) : request_(request) {}
+
+  bool goes_on(const Progress& progress) override {
+    return request_.monitor == nullptr ||
+           request_.monitor(request_.monitor_context, progress.states,
+                            progress.transitions, progress.seconds) != 0;
+  }
+
+ private:
+  const btcheck_request& request_;
+};
+
+// --- What is set -----------------------------------------------------------
+
+// What does not fit changes nothing.
+bool set_flag(const std::string& value, bool& to) {
+  if (value != "true" && value != "false") return false;
+  to = value == "true";
+  return true;
+}
+
+template <class Number>
+bool set_number(const std::string& value, Number& to) {
+  const auto number = as_number<Number>(value);
+  if (number) to = *number;
+  return number.has_value();
+}
+
+bool set_seconds(const std::string& value, double& to) {
+  double seconds = 0;
+  // Neither negative nor NaN.
+  if (!set_number(value, seconds) || !(seconds >= 0)) return false;
+  to = seconds;
+  return true;
+}
+
+bool set_seed(const std::string& value, std::optional<std::uint64_t>& to) {
+  const auto number = as_number<std::uint64_t>(value);
+  if (number) to = number;
+  return number.has_value();
+}
+
+template <class Number>
+bool set_from(const std::string& value, Number least, Number& to) {
+  Number number = 0;
+  if (!set_number(value, number) || number < least) return false;
+  to = number;
+  return true;
+}
+
+bool add(const std::string& value, std::vector<std::string>& to) {
+  to.push_back(value);
+  return true;
+}
+
+bool take(const std::string& value, std::string& to) {
+  to = value;
+  return true;
+}
+
+using Setter = bool (*)(btcheck_request& request, const std::string& value);
+struct SetterRow {
+  std::string_view name;
+  Setter set;
+};
+
+constexpr SetterRow kSetters[] = {
+    {"tree",
+     [](auto& to, auto& value) { return take(value, to.request.tree); }},
+    {"profile",
+     [](auto& to, auto& value) { return take(value, to.request.profile); }},
+    {"main_tree",
+     [](auto& to, auto& value) { return take(value, to.request.main_tree); }},
+    {"ticks",
+     [](auto& to, auto& value) { return take(value, to.request.ticks); }},
+    {"settings",
+     [](auto& to, auto& value) { return take(value, to.settings); }},
+    {"tick_milliseconds",
+     [](auto& to, auto& value) {
+       return set_from(value, 0, to.request.tick_milliseconds);
+     }},
+    {"loops",
+     [](auto& to, auto& value) { return set_flag(value, to.request.loops); }},
+    {"wake_ups",
+     [](auto& to, auto& value) {
+       return set_flag(value, to.request.wake_ups);
+     }},
+    {"tries_repairs",
+     [](auto& to, auto& value) {
+       return set_flag(value, to.request.tries_repairs);
+     }},
+    {"threads",
+     [](auto& to, auto& value) {
+       return set_from(value, 1U, to.request.threads);
+     }},
+    {"seconds",
+     [](auto& to, auto& value) {
+       return set_seconds(value, to.request.seconds);
+     }},
+    {"states",
+     [](auto& to, auto& value) {
+       return set_number(value, to.request.states);
+     }},
+    {"bytes",
+     [](auto& to, auto& value) { return set_number(value, to.request.bytes); }},
+    {"seed",
+     [](auto& to, auto& value) { return set_seed(value, to.plan.seed); }},
+    {"script",
+     [](auto& to, auto& value) { return take(value, to.plan.script); }},
+    {"run_ticks",
+     [](auto& to, auto& value) { return set_from(value, 1, to.plan.ticks); }},
+    {"rules",
+     [](auto& to, auto& value) { return add(value, to.request.rules); }},
+    {"typed_rules",
+     [](auto& to, auto& value) { return add(value, to.request.typed_rules); }},
+    {"leaves",
+     [](auto& to, auto& value) { return add(value, to.request.leaves); }},
+    {"models",
+     [](auto& to, auto& value) { return add(value, to.request.models); }}};
+
+// Does it, or says why not.
+int changed(btcheck_request* request,
+            const std::function<void(btcheck_request&)>& change) noexcept {
+  if (request == nullptr) return -1;
+  try {
+    request->error.clear();
+    change(*request);
+    return 0;
+  } catch (const std::exception& fault) {
+    try {
+      request->error = fault.what();
+    } catch (...) {
+    }
+  } catch (...) {
+  }
+  return -1;
+}
+
+std::string given(const char* text) {
+  if (text == nullptr) throw std::invalid_argument("a text is missing");
+  return text;
+}
+
+void set(btcheck_request& request, const std::string& name,
+         const std::string& value) {
+  for (const SetterRow& row : kSetters) {
+    if (row.name != name) continue;
+    if (row.set(request, value)) return;
+    throw std::invalid_argument(
+        fmt::format("`{}` does not fit `{}`", value, name));
+  }
+  throw std::invalid_argument(fmt::format("there is no `{}` to set", name));
+}
+
+// --- What is called --------------------------------------------------------
+
+void tell_error(Outcome outcome, const std::string& error,
+                btcheck_report& report) {
+  report.outcome = outcome;
+  report.error = error;
+  report.json = Json{{"schema", "btcheck-error/1"}, {"error", error}}.text();
+}
+
+void tell(const std::function<void(btcheck_report&)>& make,
+          btcheck_report& report) {
+  try {
+    make(report);
+  } catch (const std::invalid_argument& fault) {
+    tell_error(Outcome::BadInput, fault.what(), report);
+  } catch (const std::bad_alloc&) {
+    tell_error(Outcome::Internal, "out of memory", report);
+  } catch (const std::exception& fault) {
+    tell_error(Outcome::Internal, fault.what(), report);
+  }
+}
+
+// What `make` makes of it, or why it could not.
+btcheck_report* answered(
+    const std::function<void(btcheck_report&)>& make) noexcept {
+  try {
+    auto report = std::make_unique<btcheck_report>();
+    tell(make, *report);
+    return report.release();
+  } catch (...) {
+    return nullptr;
+  }
+}
+
+// `ask` is one of the calls of btcheck/check.hpp, `keep` keeps what is asked
+// for later.
+template <class Ask, class Keep>
+btcheck_report* asked(const btcheck_request* request, Ask ask,
+                      Keep keep) noexcept {
+  if (request == nullptr) return nullptr;
+  return answered([&](btcheck_report& report) {
+    CSources sources(*request);
+    CMonitor monitor(*request);
+    auto answer = ask(sources, &monitor);
+    report.outcome = answer.outcome;
+    report.json = answer.json();
+    keep(std::move(answer), report);
+  });
+}
+
+constexpr auto kKeepNothing = [](auto&&, btcheck_report&) {};
+constexpr auto kKeepSarif = [](Report answer, btcheck_report& report) {
+  report.make_sarif = [kept = std::move(answer)] { return kept.sarif(); };
+};
+constexpr auto kKeepItf = [](Simulation answer, btcheck_report& report) {
+  report.make_itf = [kept = std::move(answer)] { return kept.itf(); };
+};
+
+const char* made(const btcheck_report& report,
+                 const std::function<std::string()>& make,
+                 std::optional<std::string>& text) noexcept {
+  try {
+    const std::lock_guard<std::mutex> lock(report.making);
+    if (!text) text = make ? make() : std::string();
+    return text->c_str();
+  } catch (...) {
+    return "";
+  }
+}
+
+}  // namespace
+}  // namespace btcheck::v1
+
+extern "C" {
+
+const char* btcheck_version(void) { return v1::version().data(); }
+
+btcheck_request* btcheck_request_new(void) {
+  try {
+    return new btcheck_request();
+  } catch (...) {
+    return nullptr;
+  }
+}
+
+void btcheck_request_free(btcheck_request* request) { delete request; }
+
+int btcheck_set(btcheck_request* request, const char* name, const char* value) {
+  return v1::changed(request, [&](btcheck_request& to) {
+    v1::set(to, v1::given(name), v1::given(value));
+  });
+}
+
+int btcheck_add_file(btcheck_request* request, const char* name,
+                     const char* bytes, size_t length) {
+  return v1::changed(request, [&](btcheck_request& to) {
+    if (bytes == nullptr && length > 0) v1::given(bytes);
+    to.files.add(v1::given(name), std::string(length > 0 ? bytes : "", length));
+  });
+}
+
+int btcheck_add_package(btcheck_request* request, const char* name,
+                        const char* folder) {
+  return v1::changed(request, [&](btcheck_request& to) {
+    to.files.add_package(v1::given(name), v1::given(folder));
+  });
+}
+
+void btcheck_text_set(btcheck_text* to, const char* bytes, size_t length) {
+  if (to == nullptr) return;
+  try {
+    to->text.emplace(length > 0 && bytes != nullptr ? bytes : "",
+                     bytes != nullptr ? length : 0);
+  } catch (...) {
+    to->has_failed = true;
+  }
+}
+
+void btcheck_set_source(btcheck_request* request, btcheck_source source,
+                        void* context) {
+  if (request == nullptr) return;
+  request->source = source;
+  request->source_context = context;
+}
+
+void btcheck_set_monitor(btcheck_request* request, btcheck_monitor monitor,
+                         void* context) {
+  if (request == nullptr) return;
+  request->monitor = monitor;
+  request->monitor_context = context;
+}
+
+const char* btcheck_request_error(const btcheck_request* request) {
+  return request == nullptr ? "there is no request" : request->error.c_str();
+}
+
+btcheck_report* btcheck_check(const btcheck_request* request) {
+  return v1::asked(
+      request,
+      [&](v1::Sources& sources, v1::Monitor* monitor) {
+        return v1::check(request->request, sources, monitor);
+      },
+      v1::kKeepSarif);
+}
+
+btcheck_report* btcheck_lint(const btcheck_request* request) {
+  return v1::asked(
+      request,
+      [&](v1::Sources& sources, v1::Monitor* monitor) {
+        return v1::lint(request->request, sources, monitor);
+      },
+      v1::kKeepSarif);
+}
+
+btcheck_report* btcheck_describe(const btcheck_request* request) {
+  return v1::asked(
+      request,
+      [&](v1::Sources& sources, v1::Monitor* monitor) {
+        return v1::describe(request->request, sources, monitor);
+      },
+      v1::kKeepNothing);
+}
+
+btcheck_report* btcheck_simulate(const btcheck_request* request) {
+  return v1::asked(
+      request,
+      [&](v1::Sources& sources, v1::Monitor* monitor) {
+        return v1::simulate(request->request, request->plan, sources, monitor);
+      },
+      v1::kKeepItf);
+}
+
+btcheck_report* btcheck_explain(const char* code) {
+  if (code == nullptr || !v1::explain(code)) return nullptr;
+  return v1::answered([&](btcheck_report& report) {
+    const auto explained = v1::explain(code);
+    report.outcome = v1::Outcome::Met;
+    report.json = btcheck::Json{{"schema", "btcheck-explanation/1"},
+                                {"code", explained->code},
+                                {"summary", explained->summary},
+                                {"description", explained->description},
+                                {"help", explained->help}}
+                      .text();
+  });
+}
+
+void btcheck_report_free(btcheck_report* report) { delete report; }
+
+int btcheck_report_outcome(const btcheck_report* report) {
+  return report == nullptr ? BTCHECK_BAD_INPUT
+                           : static_cast<int>(report->outcome);
+}
+
+const char* btcheck_report_json(const btcheck_report* report) {
+  return report == nullptr ? "" : report->json.c_str();
+}
+
+const char* btcheck_report_sarif(const btcheck_report* report) {
+  return report == nullptr
+             ? ""
+             : v1::made(*report, report->make_sarif, report->sarif);
+}
+
+const char* btcheck_report_itf(const btcheck_report* report) {
+  return report == nullptr ? ""
+                           : v1::made(*report, report->make_itf, report->itf);
+}
+
+const char* btcheck_report_error(const btcheck_report* report) {
+  return report == nullptr ? "there is no report" : report->error.c_str();
+}
+
+}  // extern "C"
