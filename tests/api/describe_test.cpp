@@ -11,7 +11,6 @@
 #include "btcheck/check.hpp"
 #include "file_text.hpp"
 #include "model/tree/node_types.hpp"
-#include "report/text/type_text.hpp"
 
 namespace btcheck::describe_test {
 namespace {
@@ -198,8 +197,8 @@ TEST_CASE("every type that is not the program's own has a sentence") {
     CAPTURE(info.name);
     const bool is_own =
         info.type == NodeType::Action || info.type == NodeType::Condition;
-    CHECK(type_text(info.type).empty() == is_own);
-    const std::string_view text = type_text(info.type);
+    CHECK(info.about.empty() == is_own);
+    const std::string_view text = info.about;
     CHECK((is_own || text.ends_with('.')));
   }
 }

@@ -4,9 +4,7 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
-#include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck {
@@ -14,8 +12,5 @@ namespace btcheck {
 // By the type as it is registered, "SetBlackboard", else by what it is lowered
 // as; of a leaf that somebody has programmed, what is known of its answers.
 std::string type_text(const Node& node, Profile profile);
-
-// The sentence for all nodes of this type; "" for leaves that are programmed.
-std::string_view type_text(NodeType type);
 
 }  // namespace btcheck
