@@ -139,15 +139,15 @@ void read_back_random(std::uint64_t seed, Exported& all) {
   const Network network = lower(*tree.value, *options.ticks);
   const SplitMix64 stream(random.next());
   const bool assumes = random.percent(40);
-  InputFile rules{"random.ltl", ""};
+  std::string rules;
   for (int i = 0; i < 12; ++i) {
     RandomProperty made = random_property(*tree.value, network, random, {});
     if (assumes) assume_something(made, *tree.value, network, stream);
-    if (i == 0) rules.text = made.assumption.text;
+    if (i == 0) rules = made.assumption.text;
     if (made.assumption.by_option) options.extra = ExtraAssumption::ActionsEnd;
-    rules.text += fmt::format("property p{} : {}\n", i, made.body);
+    rules += fmt::format("property p{} : {}\n", i, made.body);
   }
-  read_back(text, rules, options, all);
+  read_back(text, {"random.ltl", rules}, options, all);
 }
 
 }  // namespace
