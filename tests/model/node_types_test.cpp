@@ -64,12 +64,12 @@ TEST_CASE("what .btf and BehaviorTree.CPP both have is converted") {
 }
 
 TEST_CASE("who goes round counts that in a local of this role") {
-  const Network network = lower(
-      tree_of("(BehaviorTree :name t (Sequence"
-              " (Recovery :num_retries 2 (Action) (Action))"
-              " (Repeat :repeat 2 (Action))"
-              " (RetryUntilSuccessful :num_attempts 2 (Action))))"),
-      TickSemantics::Root);
+  const Network network =
+      lower(tree_of("(BehaviorTree :name t (Sequence"
+                    " (Recovery :num_retries 2 (Action) (Action))"
+                    " (Repeat :repeat 2 (Action))"
+                    " (RetryUntilSuccessful :num_attempts 2 (Action))))"),
+            TickSemantics::Root);
   const auto name = [&](std::uint32_t node) {
     const auto local = local_of(network, NodeId{node}, LocalRole::Rounds);
     return local ? network.variable(*local).name : std::string();
