@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+//
+// What an editor hovers over: the tree is read and nothing is searched.
 #include <cstdint>
 #include <utility>
 

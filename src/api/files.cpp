@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+//
+// Texts in memory as sources: the nearest btcheck.toml is looked for as on a
+// disk, folder by folder.
 #include <filesystem>
 #include <utility>
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+//
+// One run of a tree, told as `btcheck simulate` tells it.
 #include <cstdint>
 #include <utility>
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
@@ -31,6 +32,7 @@
 #include "report/formats/formats.hpp"
 #include "report/text/report.hpp"
 #include "report/text/space_report.hpp"
+#include "text/tables.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck {
@@ -236,16 +238,34 @@ ExitCode run_man(const Options&) {
 
 // --- The program ---------------------------------------------------------
 
-// By Command.
-constexpr ExitCode (*kRuns[])(const Options&) = {
-    run_check, run_space, run_export,  run_trace, run_simulate, run_demo,
-    run_batch, run_lint,  run_explain, run_init,  run_conform,  run_completions,
-    run_man,   run_run,   run_monitor, run_leaves};
+struct RunOf {
+  Command command;
+  ExitCode (*run)(const Options&);
+};
+constexpr auto kRuns = std::to_array<RunOf>({
+    {Command::Check, run_check},
+    {Command::Space, run_space},
+    {Command::Export, run_export},
+    {Command::Trace, run_trace},
+    {Command::Simulate, run_simulate},
+    {Command::Demo, run_demo},
+    {Command::Batch, run_batch},
+    {Command::Lint, run_lint},
+    {Command::Explain, run_explain},
+    {Command::Init, run_init},
+    {Command::Conform, run_conform},
+    {Command::Completions, run_completions},
+    {Command::Man, run_man},
+    {Command::Run, run_run},
+    {Command::Monitor, run_monitor},
+    {Command::Leaves, run_leaves},
+});
+static_assert(is_indexed(kRuns, &RunOf::command));
 
 // What is asked for, or why the budget of the command was not enough for it.
 ExitCode run_within(const Options& options) {
   try {
-    return kRuns[static_cast<std::size_t>(options.command)](options);
+    return kRuns[static_cast<std::size_t>(options.command)].run(options);
   } catch (const BudgetSpent& spent) {
     show(options, {spent_diagnostic(spent, options.input)});
     return ExitCode::Undecided;
