@@ -115,7 +115,8 @@ std::size_t TreeFacts::place_of(NodeId id) const {
 }
 
 std::string TreeFacts::told(NodeId node) const {
-  return "`" + short_name(tree_, node) + "`";
+  if (names_.empty()) names_ = short_names(tree_);
+  return "`" + names_[index(node)] + "`";
 }
 
 std::string TreeFacts::told(const std::vector<NodeId>& nodes) const {

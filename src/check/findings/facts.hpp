@@ -91,6 +91,7 @@ class TreeFacts {
   std::vector<std::uint32_t> end_;  // by node: behind its last descendant
   std::vector<bool> may_run_;
   std::vector<std::uint32_t> deeds_before_;  // by node, and at the end
+  mutable std::vector<std::string> names_;   // by node, once one is told
 };
 
 // Whether a node may be ticked between two ticks of a running action.
