@@ -294,9 +294,19 @@ Diagnostic taken_by_older(const std::vector<Diagnostic>& refusals,
       "refused by BehaviorTree.CPP {}: {}",
       release_text(is_release_3(older) ? kNewestRelease3 : kNewestRelease),
       flaw.message);
-  flaw.help = fmt::format("releases up to {} take it: checked as `{}`",
-                          last_to_take(engine_release(older), refusals),
-                          profile_name(older));
+  const int release = engine_release(older);
+  const bool is_alone = std::ranges::any_of(releases::kKnown, [&](int other) {
+    return other < release && other / 10'000 == release / 10'000 &&
+           std::ranges::any_of(refusals, [&](const Diagnostic& each) {
+             return is_among(other, each.refused_by);
+           });
+  });
+  const std::string last = last_to_take(release, refusals);
+  flaw.help =
+      fmt::format("{}: checked as `{}`",
+                  is_alone ? fmt::format("{} is the newest that takes it", last)
+                           : fmt::format("releases up to {} take it", last),
+                  profile_name(older));
   return flaw;
 }
 
@@ -306,9 +316,8 @@ Diagnostic taken_by_older(const std::vector<Diagnostic>& refusals,
 Result<BehaviorTree> read_xml(const std::string& name, const FileText& text,
                               const TreeReading& reading) {
   ReadTree best = read_for_release(name, text, reading);
-  const std::vector<Diagnostic> first = refusals_in(best.diagnostics);
-  if (reading.profile || first.empty()) return best;
-  std::vector<Diagnostic> refusals = first;
+  std::vector<Diagnostic> refusals = refusals_in(best.diagnostics);
+  if (reading.profile || refusals.empty()) return best;
   for (const Profile older : std::vector(best.others)) {
     const bool is_refused =
         std::ranges::any_of(refusals, [&](const Diagnostic& each) {
@@ -326,7 +335,7 @@ Result<BehaviorTree> read_xml(const std::string& name, const FileText& text,
                                         count_errors(best.diagnostics))) {
       best = std::move(again);
       best.diagnostics.insert(best.diagnostics.begin(),
-                              taken_by_older(first, older));
+                              taken_by_older(refusals, older));
     }
     // No other release is better, or nothing speaks for one.
     if (is_taken || more.empty()) break;
