@@ -286,7 +286,7 @@ btcheck_report* asked(const btcheck_request* request, Ask ask,
   return answered([&](btcheck_report& report) {
     CSources sources(*request);
     CMonitor monitor(*request);
-    auto answer = ask(sources, &monitor);
+    auto answer = ask(request->request, sources, &monitor);
     report.outcome = answer.outcome;
     report.json = answer.json();
     keep(std::move(answer), report);
@@ -380,37 +380,22 @@ const char* btcheck_request_error(const btcheck_request* request) {
 }
 
 btcheck_report* btcheck_check(const btcheck_request* request) {
-  return v1::asked(
-      request,
-      [&](v1::Sources& sources, v1::Monitor* monitor) {
-        return v1::check(request->request, sources, monitor);
-      },
-      v1::kKeepSarif);
+  return v1::asked(request, v1::check, v1::kKeepSarif);
 }
 
 btcheck_report* btcheck_lint(const btcheck_request* request) {
-  return v1::asked(
-      request,
-      [&](v1::Sources& sources, v1::Monitor* monitor) {
-        return v1::lint(request->request, sources, monitor);
-      },
-      v1::kKeepSarif);
+  return v1::asked(request, v1::lint, v1::kKeepSarif);
 }
 
 btcheck_report* btcheck_describe(const btcheck_request* request) {
-  return v1::asked(
-      request,
-      [&](v1::Sources& sources, v1::Monitor* monitor) {
-        return v1::describe(request->request, sources, monitor);
-      },
-      v1::kKeepNothing);
+  return v1::asked(request, v1::describe, v1::kKeepNothing);
 }
 
 btcheck_report* btcheck_simulate(const btcheck_request* request) {
   return v1::asked(
       request,
-      [&](v1::Sources& sources, v1::Monitor* monitor) {
-        return v1::simulate(request->request, request->plan, sources, monitor);
+      [&](const v1::Request& of, v1::Sources& sources, v1::Monitor* monitor) {
+        return v1::simulate(of, request->plan, sources, monitor);
       },
       v1::kKeepItf);
 }

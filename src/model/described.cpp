@@ -10,6 +10,7 @@
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/tree/node_types.hpp"
+#include "model/tree/reads.hpp"
 
 namespace btcheck {
 namespace {
@@ -156,31 +157,24 @@ DescribedNode plain_node(const BehaviorTree& tree, NodeId id) {
 
 // --- Entries ---------------------------------------------------------------
 
-bool is_in(const Expression& expression, StateVariableId variable) {
-  return std::ranges::any_of(expression.terms(), [&](const Term& term) {
-    return term.operation == Operation::Variable &&
-           term.operand == static_cast<std::int32_t>(index(variable));
-  });
-}
-
 bool reads_in(const std::vector<StateAssignment>& assignments,
               StateVariableId variable) {
   return std::ranges::any_of(assignments, [&](const StateAssignment& each) {
-    return is_in(each.value, variable);
+    return reads(each.value, variable);
   });
 }
 
 // Of a .btf tree.
 bool reads(const Node& node, StateVariableId variable) {
   const LeafContract& contract = node.contract;
-  return is_in(node.expression, variable) ||
-         (node.assignment && is_in(node.assignment->value, variable)) ||
-         is_in(contract.requirement, variable) ||
-         is_in(contract.decision, variable) ||
+  return reads(node.expression, variable) ||
+         (node.assignment && reads(node.assignment->value, variable)) ||
+         reads(contract.requirement, variable) ||
+         reads(contract.decision, variable) ||
          reads_in(contract.on_success, variable) ||
          reads_in(contract.on_failure, variable) ||
          std::ranges::any_of(node.arguments, [&](const Argument& argument) {
-           return argument.known && is_in(argument.known->value, variable);
+           return argument.known && reads(argument.known->value, variable);
          });
 }
 

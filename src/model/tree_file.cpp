@@ -267,6 +267,13 @@ std::vector<Diagnostic> refusals_in(const std::vector<Diagnostic>& found) {
   return refusals;
 }
 
+// Whether the release refuses the file for one of them.
+bool is_refused(int release, const std::vector<Diagnostic>& refusals) {
+  return std::ranges::any_of(refusals, [&](const Diagnostic& each) {
+    return is_among(release, each.refused_by);
+  });
+}
+
 std::ptrdiff_t count_errors(const std::vector<Diagnostic>& found) {
   return std::ranges::count(found, Severity::Error, &Diagnostic::severity);
 }
@@ -276,9 +283,7 @@ std::string last_to_take(int release, const std::vector<Diagnostic>& refusals) {
   const bool is_last_patch =
       std::ranges::none_of(releases::kKnown, [&](int other) {
         return other > release && other / 100 == release / 100 &&
-               std::ranges::any_of(refusals, [&](const Diagnostic& each) {
-                 return is_among(other, each.refused_by);
-               });
+               is_refused(other, refusals);
       });
   const std::string text = release_text(release);
   return is_last_patch ? text.substr(0, text.rfind('.')) : text;
@@ -297,9 +302,7 @@ Diagnostic taken_by_older(const std::vector<Diagnostic>& refusals,
   const int release = engine_release(older);
   const bool is_alone = std::ranges::any_of(releases::kKnown, [&](int other) {
     return other < release && other / 10'000 == release / 10'000 &&
-           std::ranges::any_of(refusals, [&](const Diagnostic& each) {
-             return is_among(other, each.refused_by);
-           });
+           is_refused(other, refusals);
   });
   const std::string last = last_to_take(release, refusals);
   flaw.help =
@@ -319,11 +322,7 @@ Result<BehaviorTree> read_xml(const std::string& name, const FileText& text,
   std::vector<Diagnostic> refusals = refusals_in(best.diagnostics);
   if (reading.profile || refusals.empty()) return best;
   for (const Profile older : std::vector(best.others)) {
-    const bool is_refused =
-        std::ranges::any_of(refusals, [&](const Diagnostic& each) {
-          return is_among(engine_release(older), each.refused_by);
-        });
-    if (is_refused) continue;
+    if (is_refused(engine_release(older), refusals)) continue;
     TreeReading how = reading;
     how.is_guess = true;
     how.profile = older;

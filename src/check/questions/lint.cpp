@@ -12,6 +12,7 @@
 #include "check/questions/interruptions.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree/node_types.hpp"
+#include "model/tree/reads.hpp"
 #include "text/budget.hpp"
 
 namespace btcheck {
@@ -25,13 +26,6 @@ void for_each_assignment(const Node& node, const Visit& visit) {
        {&node.contract.on_success, &node.contract.on_failure}) {
     for (const StateAssignment& effect : *effects) visit(effect);
   }
-}
-
-bool reads(const Expression& expression, StateVariableId variable) {
-  return std::ranges::any_of(expression.terms(), [&](const Term& term) {
-    return term.operation == Operation::Variable &&
-           term.operand == static_cast<std::int32_t>(index(variable));
-  });
 }
 
 bool names(const PropertyFile& rules, const StateVariable& variable) {

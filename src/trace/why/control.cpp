@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "model/tree/node_types.hpp"
+#include "model/tree/reads.hpp"
 #include "trace/run/skipping.hpp"
 #include "trace/why/story.hpp"
 #include "trace/why/why.hpp"

@@ -114,8 +114,6 @@ bool contains(const std::vector<Id>& ids, Id id) {
   return std::ranges::find(ids, id) != ids.end();
 }
 
-bool reads(const Expression& expression, StateVariableId variable);
-
 // What an explanation may look at.
 struct Case : Story {
   const Subjects& subjects;

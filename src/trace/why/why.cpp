@@ -17,6 +17,7 @@
 #include <functional>
 
 #include "model/tree/node_types.hpp"
+#include "model/tree/reads.hpp"
 #include "text/findings.hpp"
 #include "trace/run/record.hpp"
 #include "trace/why/nearest.hpp"
@@ -301,13 +302,6 @@ std::string Story::names(const std::vector<NodeId>& nodes) const {
   std::vector<std::string> all;
   for (const NodeId node : nodes) all.push_back(name(node));
   return enumerated(all);
-}
-
-bool reads(const Expression& expression, StateVariableId variable) {
-  return std::ranges::any_of(expression.terms(), [&](const Term& term) {
-    return term.operation == Operation::Variable &&
-           static_cast<std::uint32_t>(term.operand) == index(variable);
-  });
 }
 
 std::string why(const BehaviorTree& tree, const Network& network,

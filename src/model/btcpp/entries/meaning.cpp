@@ -14,6 +14,7 @@
 
 #include "model/btcpp/entries/regions.hpp"
 #include "model/btcpp/entries/run.hpp"
+#include "model/tree/reads.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -98,14 +99,6 @@ Expression value_expression(const ScriptDomain& domain,
                                 constant(any)));
 }
 
-bool reads(const StateAssignment& assignment, StateVariableId variable) {
-  const auto terms = assignment.value.terms();
-  return std::ranges::any_of(terms, [&](const Term& term) {
-    return term.operation == Operation::Variable &&
-           term.operand == static_cast<std::int32_t>(variable);
-  });
-}
-
 // Adds assignments that all read the state before the first of them: an entry
 // is assigned to after those that read it. Those that read each other in a
 // circle give Any.
@@ -115,7 +108,8 @@ void add_in_order(const ScriptWorld& world, const ScriptRun& run,
   while (!left.empty()) {
     const auto is_read = [&](const StateAssignment& one) {
       return std::ranges::any_of(left, [&](const auto& other) {
-        return other.variable != one.variable && reads(other, one.variable);
+        return other.variable != one.variable &&
+               reads(other.value, one.variable);
       });
     };
     const auto next = std::ranges::find_if_not(left, is_read);

@@ -142,16 +142,20 @@ void check_types(const BtcppExpansion& expansion, FileFindings& findings) {
   const int engine = expansion.document->engine();
   auto conflicts = EntryTypes(expansion, engine).conflicts();
   if (conflicts.empty()) return;
-  std::map<int, std::set<const BtcppAttribute*>> refused;  // by release
-  for (const int release : releases::kKnown) {
-    for (const auto& each : EntryTypes(expansion, release).conflicts()) {
-      refused[release].insert(each.port);
+  std::map<int, std::set<const BtcppAttribute*>> known;
+  const auto refused_by = [&](int release) -> const auto& {
+    const auto [at, is_new] = known.try_emplace(release);
+    if (is_new) {
+      for (const auto& each : EntryTypes(expansion, release).conflicts()) {
+        at->second.insert(each.port);
+      }
     }
-  }
+    return at->second;
+  };
   for (auto& [port, is_told_by_model, finding] : conflicts) {
     const auto* const of = port;
     finding.refused_by = releases::those(
-        engine, [&](int release) { return refused[release].contains(of); });
+        engine, [&](int release) { return refused_by(release).contains(of); });
     finding.is_doubtful = is_told_by_model;
     if (is_told_by_model) {
       findings.warning(port->place, std::move(finding));
