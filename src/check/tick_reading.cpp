@@ -243,8 +243,9 @@ std::size_t count_of(const Questions& asked) {
 std::vector<PropertyVerdict> answers(const BehaviorTree& tree,
                                      TickSemantics ticks,
                                      const std::string& text,
-                                     const SearchChoices& choices,
+                                     SearchChoices choices,
                                      const Limits& limits) {
+  choices.keeps_runs = false;
   const auto file = read_properties("", text);
   if (!file.value) return {};
   const auto made = network_for(tree, SourceText("", ""), *file.value,

@@ -34,19 +34,41 @@ std::vector<StatePredicate> questions_about(const Network& network) {
   return questions;
 }
 
+// With the runs that a search gives away.
+struct Answers {
+  ReachabilityResult result;
+  std::vector<std::optional<Lasso>> found;
+};
+
+Answers answers_of(const ReducedNetwork& system,
+                   const std::vector<StatePredicate>& questions,
+                   const SearchChoices& how, const Limits& limits) {
+  Answers answers{{}, std::vector<std::optional<Lasso>>(questions.size())};
+  const StateAnswers met = search_states(
+      system, questions, {}, how, limits,
+      [&](std::size_t question, const std::function<Lasso()>& run) {
+        answers.found[question] = run();
+      });
+  answers.result = met.result;
+  for (std::size_t q = 0; q < questions.size(); ++q) {
+    CHECK(met.met[q] == answers.found[q].has_value());
+  }
+  return answers;
+}
+
 void check_equal(const Lowered& model, Reduction reduction) {
   const auto questions = questions_about(model.network);
   const SearchedNetwork searched(
       model.system, observed_by(model.network, questions), reduction);
   const auto answers_with = [&](unsigned threads, std::uint64_t sequential) {
-    return search_states(searched.system(), questions, {},
-                         {.threads = threads, .sequential_states = sequential},
-                         {});
+    return answers_of(searched.system(), questions,
+                      {.threads = threads, .sequential_states = sequential},
+                      {});
   };
-  const StateAnswers alone = answers_with(1, UINT64_MAX);
+  const Answers alone = answers_with(1, UINT64_MAX);
   std::size_t found = 0;
   for (const unsigned threads : {1u, 2u, 4u}) {
-    const StateAnswers together = answers_with(threads, 10);
+    const Answers together = answers_with(threads, 10);
     CHECK(together.result.is_complete);
     for (std::size_t q = 0; q < questions.size(); ++q) {
       REQUIRE(together.found[q].has_value() == alone.found[q].has_value());
@@ -77,9 +99,9 @@ TEST_CASE("a limit above the sequential part still ends the search") {
       Expression::binary(Operation::Less, Expression::constant(1),
                          Expression::constant(0)),
       {}};
-  const StateAnswers answers = search_states(
-      model.system, {nowhere}, {}, {.threads = 2, .sequential_states = 100},
-      {.max_states = 5000});
+  const Answers answers = answers_of(model.system, {nowhere},
+                                     {.threads = 2, .sequential_states = 100},
+                                     {.max_states = 5000});
   CHECK(answers.result.stopped == StopReason::MaxStates);
   CHECK(!answers.result.is_complete);
   CHECK(answers.result.progress.states >= 5000);
@@ -114,12 +136,11 @@ TEST_CASE("what memory does not suffice for is answered on disk") {
   for (std::uint64_t bytes = 8'000'000; bytes > 5'000'000; bytes -= 1'000'000) {
     const Limits limits{.max_bytes = bytes};
     SearchChoices how{.threads = 2};
-    const StateAnswers in_memory =
-        search_states(model.system, {predicate}, {}, how, limits);
+    const Answers in_memory =
+        answers_of(model.system, {predicate}, how, limits);
     how.scratch.folder = tiny_scratch().folder;
     how.scratch.words_in_memory = 1000;
-    const StateAnswers on_disk =
-        search_states(model.system, {predicate}, {}, how, limits);
+    const Answers on_disk = answers_of(model.system, {predicate}, how, limits);
     if (in_memory.result.stopped != StopReason::Memory) continue;
     if (on_disk.result.stopped == StopReason::Memory) continue;
     ++on_disk_only;
@@ -135,8 +156,8 @@ TEST_CASE("a disk that fails leaves the question open") {
   const StatePredicate nowhere{Expression::constant(0), {}};
   SearchChoices how{.threads = 2};
   how.scratch.folder = "/dev/null/no-folder";
-  const StateAnswers answers =
-      search_states(model.system, {nowhere}, {}, how, {.max_bytes = 3'000'000});
+  const Answers answers =
+      answers_of(model.system, {nowhere}, how, {.max_bytes = 3'000'000});
   CHECK(answers.result.stopped == StopReason::Disk);
   CHECK(!answers.result.is_complete);
   CHECK(!answers.found[0]);

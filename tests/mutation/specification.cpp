@@ -118,7 +118,7 @@ Verdict verdict_on_states(const CompiledNetwork& system,
   const StateAnswers answers =
       search_states(searched.system(), {sought}, {}, {}, limits);
   const bool wants_it = bound.form == PropertyForm::Possible;
-  if (answers.found[0]) return wants_it ? Verdict::Holds : Verdict::Violated;
+  if (answers.met[0]) return wants_it ? Verdict::Holds : Verdict::Violated;
   if (!answers.result.is_complete) return Verdict::Undecided;
   return wants_it ? Verdict::Violated : Verdict::Holds;
 }

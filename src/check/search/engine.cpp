@@ -137,39 +137,49 @@ class Verifier {
     if (asked.empty()) return;
     const SearchedNetwork searched(
         system_, observed_alone(network(), predicates), choices_.reduction);
+    // With assumptions a run of its own is searched that satisfies them.
+    const bool wants_runs = choices_.keeps_runs && !has_assumptions();
+    const auto take_runs = [&](const SearchedNetwork& in) -> TakeRun {
+      if (!wants_runs) return {};
+      return [&](std::size_t question, const std::function<Lasso()>& run) {
+        // Runs of many rules are what fills the memory.
+        const bool has_room = limits_.reached({}) != StopReason::Memory;
+        if (!has_room || !limits_.may_tell()) return;
+        const StatePredicate& predicate = predicates[question];
+        show(in, run(), verdicts_[asked[question]], [&](const Run& shown) {
+          return ends_with(network(), shown, predicate);
+        });
+      };
+    };
     const StateAnswers answers =
-        search_states(searched.system(), predicates, {}, choices_, limits_);
-    StateAnswers shorter{{}, decltype(answers.found)(asked.size())};
-    if (searched.system().is_reduced() && !has_assumptions()) {
-      shorter = search_states(system_, predicates, answers.found, choices_,
-                              short_run_limits_);
-    }
+        search_states(searched.system(), predicates, {}, choices_, limits_,
+                      take_runs(searched));
     for (std::size_t q = 0; q < asked.size(); ++q) {
-      judge_states(asked[q], predicates[q], searched, answers, q, shorter);
+      judge_states(asked[q], answers.result, answers.met[q]);
     }
+    if (!wants_runs || !searched.system().is_reduced()) return;
+    const SearchedNetwork whole(system_);
+    search_states(whole.system(), predicates, answers.met, choices_,
+                  short_run_limits_, take_runs(whole));
   }
 
-  void judge_states(std::size_t property, const StatePredicate& predicate,
-                    const SearchedNetwork& searched,
-                    const StateAnswers& answers, std::size_t question,
-                    const StateAnswers& shorter) {
+  void judge_states(std::size_t property, const ReachabilityResult& result,
+                    bool is_met) {
     PropertyVerdict& verdict = verdicts_[property];
     const BoundProperty& bound = file_.properties[property];
     const bool wants_it = bound.form == PropertyForm::Possible;
-    verdict.progress = answers.result.progress;
-    if (!answers.found[question]) {
-      verdict.stopped = answers.result.stopped;
-      if (!answers.result.is_complete) return;
-      verdict.verdict = wants_it ? Verdict::Violated : Verdict::Holds;
-    } else if (has_assumptions()) {
+    verdict.progress = result.progress;
+    if (is_met && has_assumptions()) {
       verify_formula(bound, verdict);
-    } else {
-      verdict.verdict = wants_it ? Verdict::Holds : Verdict::Violated;
-      show(
-          searched, *answers.found[question], verdict,
-          [&](const Run& run) { return ends_with(network(), run, predicate); },
-          [&] { return shorter.found[question]; });
+      return;
     }
+    if (!is_met) verdict.stopped = result.stopped;
+    // Without its run nothing is told of a state.
+    const bool is_known =
+        is_met ? !choices_.keeps_runs || verdict.run || !verdict.error.empty()
+               : result.is_complete;
+    if (!is_known) return;
+    verdict.verdict = wants_it == is_met ? Verdict::Holds : Verdict::Violated;
   }
 
   // Searches the network reduced as far as what is observed allows, and shows
@@ -181,15 +191,28 @@ class Verifier {
     auto search = search_in(searched.system(), limits_);
     verdict.progress = search.progress;
     verdict.stopped = search.stopped;
+    if (search.lasso && shows && choices_.keeps_runs) {
+      show(searched, *search.lasso, verdict, shows);
+      if (verdict.run && searched.system().is_reduced()) {
+        show_shorter(search_in, verdict, shows);
+      }
+    }
     verdict.verdict = search.outcome == SearchOutcome::Empty ? Verdict::Holds
                       : search.outcome == SearchOutcome::Found
                           ? Verdict::Violated
                           : Verdict::Undecided;
-    if (search.lasso && shows) {
-      show(searched, *search.lasso, verdict, shows,
-           [&] { return search_in(system_, short_run_limits_).lasso; });
-    }
     return search;
+  }
+
+  template <class SearchIn>
+  void show_shorter(SearchIn&& search_in, PropertyVerdict& verdict,
+                    const Shows& shows) const {
+    try {
+      const auto other = search_in(system_, short_run_limits_).lasso;
+      if (other) show(SearchedNetwork(system_), *other, verdict, shows);
+    } catch (const BudgetSpent&) {
+      // Then the longer run is told.
+    }
   }
 
   // Among the runs that satisfy the assumptions, if there are any. A `possible`
@@ -285,25 +308,14 @@ class Verifier {
   }
 
   // The run of a verdict: replayed, found to show what it should, made simpler.
-  // One that was found in a reduced network gives way to a shorter one that
-  // `search_again` finds without reductions, if it finds any within its limits.
-  template <class SearchAgain>
+  // One that was found in a reduced network gives way to one that is found
+  // without reductions and is no longer.
   void show(const SearchedNetwork& searched, const Lasso& found,
-            PropertyVerdict& verdict, const Shows& shows,
-            SearchAgain&& search_again) const {
-    verdict.run = replayed(searched, found, shows, verdict.error);
-    if (!verdict.run || !searched.system().is_reduced()) return;
-    std::optional<Lasso> other;
-    try {
-      other = search_again();
-    } catch (const BudgetSpent&) {
-      // Then the longer run is told.
-    }
-    if (!other) return;
-    auto run = replayed(SearchedNetwork(system_), *other, shows, verdict.error);
-    if (run && run->steps.size() <= verdict.run->steps.size()) {
-      verdict.run = std::move(run);
-    }
+            PropertyVerdict& verdict, const Shows& shows) const {
+    auto run = replayed(searched, found, shows, verdict.error);
+    const bool is_better =
+        run && (!verdict.run || run->steps.size() <= verdict.run->steps.size());
+    if (is_better) verdict.run = std::move(run);
   }
 
   // Whether some fair run violates the formula.
@@ -330,7 +342,7 @@ class Verifier {
     const auto is_unreached = [&](const OpenComparison& comparison) {
       for (std::size_t q = 0; q < where.size(); ++q) {
         if (where[q].expression != comparison.where) continue;
-        return answers.result.is_complete && !answers.found[q];
+        return answers.result.is_complete && !answers.met[q];
       }
       return false;
     };
@@ -384,11 +396,13 @@ std::optional<Run> run_to_fault(const CompiledNetwork& system,
   const SearchedNetwork searched(system, observed_alone(network, is_fault),
                                  choices.reduction);
   choices.order = SearchOrder::BreadthFirst;
-  const StateAnswers answers =
-      search_states(searched.system(), is_fault, {}, choices, limits);
-  if (!answers.found[0]) return std::nullopt;
-  std::string error;
-  return searched.replayed(*answers.found[0], error);
+  std::optional<Run> run;
+  search_states(searched.system(), is_fault, {}, choices, limits,
+                [&](std::size_t, const std::function<Lasso()>& found) {
+                  std::string error;
+                  run = searched.replayed(found(), error);
+                });
+  return run;
 }
 
 }  // namespace btcheck

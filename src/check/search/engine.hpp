@@ -27,6 +27,8 @@ struct SearchChoices {
   // whom; a breadth-first search that needs more starts over with all threads,
   // and with a third of the memory for each state.
   std::uint64_t sequential_states = 1'000'000;
+  // Whether verdicts have the runs that show them; they take room and time.
+  bool keeps_runs = true;
 };
 
 struct Verification {

@@ -4,6 +4,8 @@
 // for all properties of a kind at once.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,19 +17,25 @@
 
 namespace btcheck {
 
-// For each predicate a run to the first state found that meets it: breadth
-// first, to one of the nearest.
+// Takes the run to the first state found that meets a predicate: breadth first,
+// to one of the nearest. It is made where it is asked for, so that the runs of
+// many predicates need not stand side by side.
+using TakeRun = std::function<void(std::size_t predicate,
+                                   const std::function<Lasso()>& run)>;
+
 struct StateAnswers {
   ReachabilityResult result;
-  std::vector<std::optional<Lasso>> found;
+  std::vector<bool> met;  // by predicate: some state found meets it
 };
 
-// With `known` not empty, only the predicates that have a run there are asked.
-// The system must observe all that is read.
+// With `asked` not empty, only the predicates that it names are asked. The
+// system must observe all that is read. `take` may be empty; it is called once
+// for each predicate that is met.
 StateAnswers search_states(const ReducedNetwork& system,
                            const std::vector<StatePredicate>& predicates,
-                           const std::vector<std::optional<Lasso>>& known,
-                           const SearchChoices& how, const Limits& limits);
+                           const std::vector<bool>& asked,
+                           const SearchChoices& how, const Limits& limits,
+                           const TakeRun& take = {});
 
 // A fair run that violates the formula and satisfies every condition; without
 // conditions also a finite one that violates it however it goes on. With

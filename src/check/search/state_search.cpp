@@ -45,9 +45,12 @@ class StateSearches {
  public:
   StateSearches(const ReducedNetwork& system,
                 const std::vector<StatePredicate>& predicates,
-                std::vector<std::size_t> asked)
-      : system_(system), predicates_(predicates), open_(std::move(asked)) {
-    answers_.found.resize(predicates.size());
+                std::vector<std::size_t> asked, const TakeRun& take)
+      : system_(system),
+        predicates_(predicates),
+        open_(std::move(asked)),
+        take_(take) {
+    answers_.met.resize(predicates.size());
   }
 
   bool is_done() const { return open_.empty(); }
@@ -60,7 +63,7 @@ class StateSearches {
     answers_.result = search.run(visitor);
     for (const std::size_t question : open_) {
       if (const auto& state = visitor.first[question]) {
-        answers_.found[question] = Lasso{search.path_to(*state), {}, {}};
+        is_met(question, [&] { return Lasso{search.path_to(*state), {}, {}}; });
       }
     }
     open_ = visitor.open;
@@ -106,17 +109,25 @@ class StateSearches {
     for (std::size_t i = 0; i < open_.size(); ++i) {
       const auto& found = questions.answers()[i];
       if (!found) continue;
-      const auto pairs = search.path_to(found->pair, found->depth);
-      const auto load = [&](Word pair, StateVector& words) {
-        system.load(pair, words.data());
-      };
-      answers_.found[open_[i]] = Lasso{tell_run(system_, pairs, load), {}, {}};
+      is_met(open_[i], [&] {
+        const auto pairs = search.path_to(found->pair, found->depth);
+        const auto load = [&](Word pair, StateVector& words) {
+          system.load(pair, words.data());
+        };
+        return Lasso{tell_run(system_, pairs, load), {}, {}};
+      });
     }
+  }
+
+  void is_met(std::size_t question, const std::function<Lasso()>& run) {
+    answers_.met[question] = true;
+    if (take_) take_(question, run);
   }
 
   const ReducedNetwork& system_;
   const std::vector<StatePredicate>& predicates_;
   std::vector<std::size_t> open_;  // the questions not answered so far
+  const TakeRun& take_;
   StateAnswers answers_;
 };
 
@@ -124,13 +135,14 @@ class StateSearches {
 
 StateAnswers search_states(const ReducedNetwork& system,
                            const std::vector<StatePredicate>& predicates,
-                           const std::vector<std::optional<Lasso>>& known,
-                           const SearchChoices& how, const Limits& limits) {
-  std::vector<std::size_t> asked;
+                           const std::vector<bool>& asked,
+                           const SearchChoices& how, const Limits& limits,
+                           const TakeRun& take) {
+  std::vector<std::size_t> open;
   for (std::size_t i = 0; i < predicates.size(); ++i) {
-    if (known.empty() || known[i]) asked.push_back(i);
+    if (asked.empty() || asked[i]) open.push_back(i);
   }
-  StateSearches searches(system, predicates, std::move(asked));
+  StateSearches searches(system, predicates, std::move(open), take);
   if (searches.is_done()) return searches.take();
   if (how.order == SearchOrder::DepthFirst) {
     searches.run(DepthFirst(system, limits));

@@ -201,6 +201,11 @@ void StateRecorder::note(const RunStep& step, RecordedState& state) {
 void StateRecorder::show(const Valuation& state, RecordedState& shown) const {
   shown.time = time_;
   shown.tick = *std::ranges::max_element(ticks_);
+  const std::size_t count = tree_.nodes.size();
+  shown.statuses.reserve(count);
+  shown.locations.reserve(count);
+  shown.phases.reserve(count);
+  shown.is_stale.reserve(count);
   for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
     const NodeId node{n};
     shown.statuses.emplace_back(status_names(
