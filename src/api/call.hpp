@@ -15,11 +15,13 @@
 #include "model/automata/network.hpp"
 #include "project/sources.hpp"
 #include "text/budget.hpp"
+#include "text/choice.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck::v1 {
 
-// The time and the monitor of one call, for every stage of it.
+// The time and the monitor of one call, for every stage of it. While it lasts,
+// its thread speaks of fields of the request.
 class Call final : public Budget, public SearchMonitor {
  public:
   Call(const Request& request, Monitor* monitor)
@@ -39,6 +41,8 @@ class Call final : public Budget, public SearchMonitor {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  SpeaksOfRequests words_;
   static constexpr double kTelling = 0.3;
   static constexpr double kAskEvery = 0.005;
 

@@ -20,6 +20,7 @@
 #include "model/tree/node_types.hpp"
 #include "model/tree/releases.hpp"
 #include "text/budget.hpp"
+#include "text/choice.hpp"
 
 namespace btcheck {
 namespace {
@@ -86,9 +87,10 @@ bool has_round_robin(const BtcppDocument& document) {
 
 Diagnostic guess_of(const std::string& name, const BtcppDocument& document,
                     Profile profile) {
-  constexpr std::string_view kProfiles =
-      "--profile nav2-galactic, nav2-humble, nav2-iron, nav2-jazzy, "
-      "nav2-kilted, nav2-lyrical or nav2-main";
+  const std::string profiles =
+      word(Choice::Profile,
+           "nav2-galactic, nav2-humble, nav2-iron, nav2-jazzy, nav2-kilted, "
+           "nav2-lyrical or nav2-main");
   return SourceText(name, "").diagnostic(
       Severity::Note, "BT1637", {},
       fmt::format("nodes of Nav2: checked as `{}`", profile_name(profile)), "",
@@ -97,8 +99,8 @@ Diagnostic guess_of(const std::string& name, const BtcppDocument& document,
                 "name yours, it matters here: {}; behind its last child "
                 "RoundRobin begins again up to kilted, and fails from lyrical "
                 "(main) on, unless `wrap_around=\"true\"`",
-                kProfiles)
-          : fmt::format("name the branch you run: {}", kProfiles));
+                profiles)
+          : fmt::format("name the branch you run: {}", profiles));
 }
 
 // The leaves that contracts are about, by the end of their paths.
@@ -356,19 +358,23 @@ std::optional<Result<BehaviorTree>> refused_of_btf(const std::string& name,
   if (!reading.leaves.empty()) {
     return refused(
         name, "BT1639", "a .btf tree has its contracts in its own file",
-        "leave --leaves out, and write `(defaction ...)` beside the tree");
+        fmt::format("leave {} out, and write `(defaction ...)` beside the tree",
+                    word(Choice::Leaves)));
   }
   if (!reading.models.empty()) {
-    return refused(name, "BT1636", "--models is for XML trees",
+    return refused(name, "BT1636",
+                   fmt::format("{} is for XML trees", word(Choice::Models)),
                    "leave it out: a .btf tree has the node types of .btf");
   }
   if (reading.wakes) {
-    return refused(name, "BT1636", "--wake-ups is for XML trees",
+    return refused(name, "BT1636",
+                   fmt::format("{} is for XML trees", word(Choice::WakeUps)),
                    "leave it out: under `paper` a tree that runs is ticked "
                    "again a unit of time later");
   }
   if (!reading.main_tree.empty()) {
-    return refused(name, "BT1636", "--main-tree is for XML trees",
+    return refused(name, "BT1636",
+                   fmt::format("{} is for XML trees", word(Choice::MainTree)),
                    "leave it out, and write `(Trees NAME)` in the file");
   }
   return std::nullopt;
@@ -423,14 +429,18 @@ Result<BehaviorTree> read_tree(const std::string& name, const FileText& text,
     return has_xml
                ? refused(name, "BT1636",
                          "an XML tree has no meaning under `paper`",
-                         "leave --profile out, or name an engine's: btcpp-4, "
-                         "btcpp-3.8, nav2-humble, nav2-jazzy, nav2-main …")
-               : refused(name, "BT1636",
-                         fmt::format("a .btf tree has no meaning under `{}`",
-                                     profile_name(*reading.profile)),
-                         "leave --profile out: .btf trees are checked under "
-                         "`paper`; or check the XML that `btcheck export "
-                         "TREE.btf --to xml` makes of it");
+                         fmt::format(
+                             "leave {} out, or name an engine's: btcpp-4, "
+                             "btcpp-3.8, nav2-humble, nav2-jazzy, nav2-main …",
+                             word(Choice::Profile)))
+               : refused(
+                     name, "BT1636",
+                     fmt::format("a .btf tree has no meaning under `{}`",
+                                 profile_name(*reading.profile)),
+                     fmt::format("leave {} out: .btf trees are checked under "
+                                 "`paper`; or check the XML that `btcheck "
+                                 "export TREE.btf --to xml` makes of it",
+                                 word(Choice::Profile)));
   }
   return has_xml ? read_xml(name, text, reading)
                  : read_paper(name, text, reading);

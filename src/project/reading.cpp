@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "project/reading.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
+
+#include "text/choice.hpp"
 
 namespace btcheck {
 namespace {
@@ -78,8 +82,9 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
     found.push_back(
         file_error("BT1636", tree.name,
                    "in an XML tree time passes at ticks of the root only",
-                   "leave --tick out, or `tick` of the rules; --tick-ms "
-                   "says how long a tick takes"));
+                   fmt::format("leave {} out, or `tick` of the rules; {} says "
+                               "how long a tick takes",
+                               word(Choice::Tick), word(Choice::TickMs))));
     return std::nullopt;
   }
   add_asked_files(tree, sources, reading, found);

@@ -107,4 +107,16 @@ std::string with_entities(std::string_view text) {
   return result;
 }
 
+std::string unbroken(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    if (c == '\n') {
+      line += "\\u{a}";
+    } else {
+      line += c;
+    }
+  }
+  return line;
+}
+
 }  // namespace btcheck

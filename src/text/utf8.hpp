@@ -74,4 +74,10 @@ inline constexpr std::size_t kLineWidth = 80;
 std::string wrapped(std::string_view text, std::size_t indent,
                     std::size_t width = kLineWidth);
 
+// The text with each line feed written out, as `harmless` writes all that it
+// does not leave: "\u{a}". A name is one line, wherever it is shown: every
+// reader does this to the names that it reads, so that none of them begins a
+// line of a report.
+std::string unbroken(std::string_view text);
+
 }  // namespace btcheck

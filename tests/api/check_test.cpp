@@ -146,6 +146,27 @@ TEST_CASE("what is wrong is a finding, and nothing is checked") {
   CHECK_THROWS_AS(v1::check(odd, files), std::invalid_argument);
 }
 
+TEST_CASE("who has no command line is told of fields of the request") {
+  v1::Files files;
+  files.add("a.btf", "(BehaviorTree :name t (Sequence (Action :ID A)))");
+  files.add("two.xml",
+            R"(<root BTCPP_format="4"><BehaviorTree ID="m"><A/></BehaviorTree>
+               <BehaviorTree ID="n"><B/></BehaviorTree></root>)");
+  v1::Request request = request_for("a.btf");
+  request.main_tree = "t";
+  const v1::Report refused = v1::check(request, files);
+  REQUIRE(refused.findings.size() == 1);
+  CHECK(refused.findings[0].message == "`main_tree` is for XML trees.");
+  const v1::Report several = v1::check(request_for("two.xml"), files);
+  REQUIRE(several.outcome == v1::Outcome::BadInput);
+  CHECK(several.json().find("name one by `main_tree`, or in") !=
+        std::string::npos);
+  for (const std::string& text : {refused.json(), several.json()}) {
+    CAPTURE(text);
+    CHECK(text.find("--") == text.npos);
+  }
+}
+
 TEST_CASE("lint reads and searches nothing, and codes are explained") {
   v1::Files files;
   files.add("a.xml", tree_of("<Fallback><AlwaysSuccess/><A/></Fallback>"));

@@ -231,6 +231,28 @@ TEST_CASE("only the command line prints, reads files or exits") {
   }
 }
 
+// What other front ends call otherwise is a Choice (text/choice.hpp).
+TEST_CASE("only the command line speaks of options") {
+  const std::regex option(R"rx("[^"]*--[a-z][a-z-]+)rx");
+  for (const SourceFile& source : sources_in("src")) {
+    const std::string room =
+        source.path.substr(4, source.path.find('/', 4) - 4);
+    const bool may_speak = room == "cli" || room == "batch" || room == "pins" ||
+                           source.path.starts_with("src/report/codes/") ||
+                           source.path.starts_with("src/check/export/ltsmin") ||
+                           source.path == "src/text/choice.cpp";
+    if (may_speak) continue;
+    for (const std::string& line : source.lines) {
+      if (line.find("//") != std::string::npos) continue;
+      CAPTURE(source.path);
+      CAPTURE(line);
+      // A command that is quoted whole is one.
+      CHECK((!std::regex_search(line, option) ||
+             line.find("export TREE.btf --to") != std::string::npos));
+    }
+  }
+}
+
 TEST_CASE("every source names its licence, and no line is too wide") {
   for (const char* folder : {"src", "tests"}) {
     for (const SourceFile& source : sources_in(folder)) {

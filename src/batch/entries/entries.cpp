@@ -19,7 +19,7 @@
 #include "model/foreign_format.hpp"
 #include "model/tree_file.hpp"
 #include "text/numbers.hpp"
-#include "text/unbroken.hpp"
+#include "text/utf8.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {

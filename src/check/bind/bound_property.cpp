@@ -13,6 +13,7 @@
 #include "ltl/formula/formula.hpp"
 #include "model/tree/node_types.hpp"
 #include "text/budget.hpp"
+#include "text/choice.hpp"
 
 namespace btcheck {
 namespace {
@@ -231,7 +232,7 @@ class PropertyBinder {
                     fmt::format("`{}` speaks of time, but under `none` no time "
                                 "passes",
                                 property.name),
-                    "choose --tick root, leaves or nodes");
+                    "choose " + word(Choice::Tick, "root, leaves or nodes"));
     }
     const TimedClaim& claim = property.timed;
     BoundPattern& timed = bound.timed;

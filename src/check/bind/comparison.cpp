@@ -14,6 +14,7 @@
 #include "check/bind/bind.hpp"
 #include "check/bind/name_help.hpp"
 #include "model/automata/tick_memory.hpp"
+#include "text/choice.hpp"
 
 namespace btcheck {
 namespace {
@@ -79,17 +80,17 @@ std::string help_for_entry(std::string_view reason, std::string_view name) {
   if (reason.starts_with("nothing in the tree")) {
     return fmt::format(
         "say what it begins with, `(defsv {} :init 0)`, or which values it "
-        "has, {}, in a file for --leaves",
-        name, values);
+        "has, {}, in a file for {}",
+        name, values, word(Choice::Leaves));
   }
   if (!reason.starts_with("the port")) {
-    return fmt::format("say which values it has, {}, in a file for --leaves",
-                       values);
+    return fmt::format("say which values it has, {}, in a file for {}", values,
+                       word(Choice::Leaves));
   }
   return fmt::format(
       "say which values it has, {}, or what the leaf writes, `:on-success ((:= "
-      "{} 1))`, in a file for --leaves",
-      values, name);
+      "{} 1))`, in a file for {}",
+      values, name, word(Choice::Leaves));
 }
 
 }  // namespace

@@ -23,6 +23,7 @@
 #include "model/sampling.hpp"
 #include "model/tree/node_types.hpp"
 #include "text/budget.hpp"
+#include "text/choice.hpp"
 #include "trace/pictures/pictures.hpp"
 #include "trace/run/record.hpp"
 #include "trace/watch/cpp_monitor.hpp"
@@ -179,7 +180,8 @@ class ModelExport {
         report(Severity::Error, "BT0005",
                "the property files ask for different tick semantics",
                input->file,
-               "choose one by --tick, or export the files one by one");
+               fmt::format("choose one by {}, or export the files one by one",
+                           word(Choice::Tick)));
       }
       if (!said) said = ticks;
     }
@@ -276,12 +278,13 @@ class ModelExport {
       findings_.push_back(source.diagnostic(
           Severity::Error, "BT0010", {},
           fmt::format("the tree is {} already", to_xml ? "XML" : ".btf"), "",
-          to_xml ? "write --to btf" : "write --to xml"));
+          "write " + word(Choice::Format, to_xml ? "btf" : "xml")));
       return "";
     }
     if (tree_->profile == Profile::PyTrees) {
-      return refused("a tree of py_trees has no counterpart in .btf",
-                     "export a model: --to promela, smv or fiacre");
+      return refused(
+          "a tree of py_trees has no counterpart in .btf",
+          "export a model: " + word(Choice::Format, "promela, smv or fiacre"));
     }
     auto text = (to_xml ? xml_text : btf_text)(*tree_, source,
                                                tree_input_.reading.tick_ms);
@@ -296,12 +299,14 @@ class ModelExport {
                      "an XML tree has an executor of its own");
     }
     if (!inputs_.empty()) {
-      return refused("H-Fiacre is executed, and has no properties",
-                     "leave --prop out, or write --to fiacre");
+      return refused(
+          "H-Fiacre is executed, and has no properties",
+          fmt::format("leave {} out, or write {}", word(Choice::Rules),
+                      word(Choice::Format, "fiacre")));
     }
     if (network_->ticks == TickSemantics::None) {
       return refused("without time nothing in H-Fiacre would be urgent",
-                     "write --tick root");
+                     "write " + word(Choice::Tick, "root"));
     }
     return finished(hfiacre_text(*tree_, *network_), "/* ", " */");
   }
@@ -311,7 +316,7 @@ class ModelExport {
     if (inputs_.size() != 1) {
       return refused(inputs_.empty() ? "there are no rules to be monitored"
                                      : "one header has the rules of one file",
-                     "write --prop RULES.ltl");
+                     "write " + word(Choice::Rules, "RULES.ltl"));
     }
     auto text = cpp_monitor(*tree_, recorded_tree(*tree_, tree_input_),
                             inputs_[0]->file, inputs_[0]->source);

@@ -14,6 +14,7 @@
 #include "model/tree/node_types.hpp"
 #include "model/tree/reads.hpp"
 #include "text/budget.hpp"
+#include "text/choice.hpp"
 
 namespace btcheck {
 namespace {
@@ -110,9 +111,10 @@ class Linter {
           fmt::format(", if their leaves do; so can children of {} more node{}",
                       guesses - 1, guesses == 2 ? "" : "s");
     }
-    guess.help =
+    guess.help = fmt::format(
         "no model tells of these leaves: say which end at once, in "
-        "`<TreeNodesModel>` or by --leaves";
+        "`<TreeNodesModel>` or by {}",
+        word(Choice::Leaves));
   }
 
   void tell_interruption(const Interruption& found) {
@@ -140,7 +142,8 @@ class Linter {
              fmt::format("nothing reads or writes `{}`", variable.name),
              moves_freely(tree_, id) ? "it moves, and multiplies the states"
                                      : "",
-             "delete it, or name the rules that speak of it by --prop");
+             fmt::format("delete it, or name the rules that speak of it by {}",
+                         word(Choice::Rules)));
       } else if (!variable.transitions.empty() && is_written(tree_, id) &&
                  !moves_freely(tree_, id) && !is_measured(id)) {
         warn("BT2304", variable.span,

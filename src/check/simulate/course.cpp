@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "check/simulate/script.hpp"
+#include "text/choice.hpp"
 
 namespace btcheck {
 namespace {
@@ -114,8 +115,8 @@ std::string ending_text(const Simulation& simulation, int ticks) {
       break;
   }
   return last >= ticks
-             ? fmt::format("stopped after {} tick{}; --ticks asks for more",
-                           ticks, ticks == 1 ? "" : "s")
+             ? fmt::format("stopped after {} tick{}; {} asks for more", ticks,
+                           ticks == 1 ? "" : "s", word(Choice::Ticks))
              : fmt::format("stopped in tick {}", last);
 }
 

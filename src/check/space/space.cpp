@@ -21,6 +21,7 @@
 #include "explore/large/parallel_breadth_first.hpp"
 #include "explore/search/reachability.hpp"
 #include "explore/state/step.hpp"
+#include "text/choice.hpp"
 
 namespace btcheck {
 namespace {
@@ -300,11 +301,13 @@ Result<std::string> space_graph(const Network& network, GraphFormat format,
   refusal.file = file;
   if (!collector.is_too_large) {
     refusal.message = "a limit was reached before all states were found";
-    refusal.help = "give --max-states, --memory or --timeout more";
+    refusal.help =
+        fmt::format("give {}, {} or {} more", word(Choice::MaxStates),
+                    word(Choice::Memory), word(Choice::Timeout));
   } else if (is_drawn) {
     refusal.message =
         "the state space has more than 2,000 states, too many for a drawing";
-    refusal.help = "--export aut takes up to 100,000 states";
+    refusal.help = word(Choice::Export, "aut") + " takes up to 100,000 states";
   } else {
     refusal.message =
         "the state space has more than 100,000 states, too many for a text of "

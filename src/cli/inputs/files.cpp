@@ -21,7 +21,7 @@
 
 #include "cli/console/writing.hpp"
 #include "cli/options/options.hpp"
-#include "text/unbroken.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck {
 namespace {

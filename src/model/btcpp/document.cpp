@@ -31,6 +31,7 @@
 #include "model/btcpp/unknown_leaves.hpp"
 #include "model/tree/leaf_names.hpp"
 #include "model/tree/releases.hpp"
+#include "text/choice.hpp"
 #include "text/numbers.hpp"
 
 namespace btcheck {
@@ -399,8 +400,9 @@ class DocumentReader {
     if (document_.release != BtcppRelease::PyTrees) {
       findings_.error(place, {"BT1660", "the file has a tree of py_trees",
                               "its nodes mean something else elsewhere",
-                              "leave --profile out, or write `--profile "
-                              "py_trees`"});
+                              fmt::format("leave {} out, or write `{}`",
+                                          word(Choice::Profile),
+                                          word(Choice::Profile, "py_trees"))});
     } else if (!release.value.starts_with("2.") && release.value != "2") {
       findings_.error(
           place,
@@ -623,13 +625,16 @@ class DocumentReader {
                                          "each is taken as an action, may run";
     finding.help =
         asking.empty()
-            ? "describe them in `<TreeNodesModel>`, or by --leaves; `btcheck "
-              "leaves` begins either"
+            ? fmt::format(
+                  "describe them in `<TreeNodesModel>`, or by {}; `btcheck "
+                  "leaves` begins either",
+                  word(Choice::Leaves))
             : fmt::format(
                   "{} sound{} like {}: say so in `<TreeNodesModel>`, "
-                  "or by --leaves; `btcheck leaves` begins either",
+                  "or by {}; `btcheck leaves` begins either",
                   listed(asking), asking.size() == 1 ? "s" : "",
-                  asking.size() == 1 ? "a condition" : "conditions");
+                  asking.size() == 1 ? "a condition" : "conditions",
+                  word(Choice::Leaves));
     findings_.note(leaves.front()->place, std::move(finding));
   }
 

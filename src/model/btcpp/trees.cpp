@@ -16,6 +16,7 @@
 #include "model/btcpp/known_types.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree/releases.hpp"
+#include "text/choice.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -442,7 +443,8 @@ class TreeReader {
                        release_text(context_.document.engine())),
            since == releases::kMisspellsRetry.end
                ? "write `RetryUntilSuccesful`, as this release spells it"
-               : "name the release that you have by --profile"});
+               : fmt::format("name the release that you have by {}",
+                             word(Choice::Profile))});
   }
 
   // Version 3 has types under the names of older releases, and is told once.

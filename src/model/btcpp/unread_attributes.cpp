@@ -13,6 +13,7 @@
 
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/source_files.hpp"
+#include "text/choice.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -70,8 +71,10 @@ class UnreadAttributes {
                      names.size() == 1 ? "is" : "are"),
          "neither a port nor a condition of the engine",
          has_guards
-             ? "MoVe4BT's guards and programs are lost: say in a contract what "
-               "the leaf does (--leaves, `:succeeds-when` and `:on-success`)"
+             ? fmt::format("MoVe4BT's guards and programs are lost: say in a "
+                           "contract what the leaf does ({}, `:succeeds-when` "
+                           "and `:on-success`)",
+                           word(Choice::Leaves))
              : "if another tool has a guard there, it is lost: version 4 has "
                "`_while`, `_skipIf` and others"});
   }

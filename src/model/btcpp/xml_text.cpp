@@ -13,7 +13,6 @@
 #include <optional>
 #include <utility>
 
-#include "text/unbroken.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck::btcpp {

@@ -13,6 +13,7 @@
 #include "model/btcpp/known_types.hpp"
 #include "model/export/told.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/choice.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck {
@@ -64,8 +65,9 @@ class XmlWriter {
   void add_tree(NodeId id) {
     const Node& node = tree_.node(id);
     if (node.type == NodeType::BehaviorTree && node.loop) {
-      told_.left_out(node, "`:loop 1` is not carried over",
-                     "say --loop when the XML is checked");
+      told_.left_out(
+          node, "`:loop 1` is not carried over",
+          fmt::format("say {} when the XML is checked", word(Choice::Loop)));
     }
     text_ +=
         fmt::format("  <BehaviorTree{}>\n", attribute("ID", tree_name(node)));
@@ -213,8 +215,9 @@ class XmlWriter {
     told_.left_out(
         node,
         fmt::format("the contract of `{}` is not carried over", leaf_id(node)),
-        "say it in a file of leaf contracts, for --leaves: what it returns, "
-        "its duration, what it requires and writes");
+        fmt::format("say it in a file of leaf contracts, for {}: what it "
+                    "returns, its duration, what it requires and writes",
+                    word(Choice::Leaves)));
   }
 
   std::string arguments(const Node& node) {

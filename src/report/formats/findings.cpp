@@ -13,6 +13,7 @@
 #include "model/tree/node_types.hpp"
 #include "report/codes/codes.hpp"
 #include "report/text/report.hpp"
+#include "text/choice.hpp"
 #include "trace/run/record.hpp"
 
 namespace btcheck {
@@ -253,7 +254,7 @@ std::vector<Finding> findings_of(const CheckResult& result,
             rule::kFault, "some runs end in a fault",
             "Some runs end in a fault: an assignment out of range, a division "
             "by zero, or an\nexception. What would have followed is not "
-            "judged. Without --prop, btcheck shows one.")
+            "judged. Without rules, btcheck shows one.")
         .severity = *file.fault_level;
   }
   if (file.defaults) {

@@ -16,6 +16,7 @@
 #include "model/tree/granted.hpp"
 #include "model/tree/leaf_names.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/choice.hpp"
 #include "text/utf8.hpp"
 #include "trace/formats/text.hpp"
 #include "trace/run/record.hpp"
@@ -191,9 +192,9 @@ std::string lasting_help(const BehaviorTree& tree, const Network& network,
         leaf.type == NodeType::Action && leaf.contract.may_run && name;
     if (!may_last) continue;
     return fmt::format(
-        "    If it takes time, say so in a file for --leaves, in ticks:\n"
+        "    If it takes time, say so in a file for {}, in ticks:\n"
         "    (defaction {} :duration [1,2])\n",
-        *name);
+        word(Choice::Leaves), *name);
   }
   return {};
 }

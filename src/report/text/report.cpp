@@ -14,6 +14,7 @@
 #include "model/tree/granted.hpp"
 #include "model/tree/node_types.hpp"
 #include "report/text/conditions.hpp"
+#include "text/choice.hpp"
 #include "text/findings.hpp"
 #include "text/utf8.hpp"
 #include "trace/why/why.hpp"
@@ -246,17 +247,20 @@ std::string sums_text(const CheckedFile& file) {
 // How a search can end early: the word for programs, the words for people.
 struct StopWords {
   std::string_view word;
-  std::string_view text;
+  std::string_view text;  // with a brace pair for each limit that is named
+  Choice limit = Choice::MaxStates;
+  Choice other = Choice::MaxStates;
 };
 // In the order of StopReason. A text that begins with a colon follows "after
 // 12 states".
 constexpr std::array<StopWords, 8> kStops = {{
     {"", ""},
-    {"max-states", ": the limit of --max-states; allow more"},
-    {"memory", ": the limit of --memory; allow more, or --max-states"},
-    {"timeout", ": the limit of --timeout; allow more"},
+    {"max-states", ": the limit of {}; allow more"},
+    {"memory", ": the limit of {}; allow more, or {}", Choice::Memory},
+    {"timeout", ": the limit of {}; allow more", Choice::Timeout},
     {"interrupted", ": interrupted"},
-    {"disk", ": the disk of --on-disk is full or fails; name another one"},
+    {"disk", ": the disk of {} is full or fails; name another one",
+     Choice::Disk},
     {"formula-too-large",
      "its automaton is too large; split it into several properties"},
     {"open-entries", "what was found rests on values that are not known"},
@@ -418,7 +422,9 @@ std::string counted(std::uint64_t count, std::string_view one,
 
 std::string stop_text(StopReason reason, const SearchProgress& progress,
                       const std::string& open) {
-  std::string text(kStops[static_cast<std::size_t>(reason)].text);
+  const StopWords& words = kStops[static_cast<std::size_t>(reason)];
+  std::string text = fmt::format(fmt::runtime(words.text), word(words.limit),
+                                 word(words.other));
   if (text.empty() || text.starts_with(':')) {
     text.insert(0, fmt::format("after {} states", grouped(progress.states)));
   }
@@ -456,7 +462,7 @@ std::string verdicts_text(const CheckResult& result, const CheckedFile& file,
     text +=
         "\nSome runs end in a fault: an assignment out of range, a division by "
         "zero, or an\nexception. What would have followed is not judged. "
-        "Without --prop, btcheck shows\none.\n";
+        "Without rules, btcheck shows\none.\n";
     if (file.fault_level == Severity::Error) {
       text += fmt::format("error[{}]: that is denied\n",
                           code_of(TreeQuestion::InRange));

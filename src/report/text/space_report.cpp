@@ -11,6 +11,7 @@
 
 #include "model/tree/node_types.hpp"
 #include "report/text/report.hpp"
+#include "text/choice.hpp"
 
 namespace btcheck {
 namespace {
@@ -42,7 +43,8 @@ std::string_view advice_for(const Node& node) {
     return "it counts its rounds: two often show what ten would";
   }
   if (info_of(node.type).beside == Beside::Counted) {
-    return "its children interleave; --reduce full explores one order";
+    return fmt::format("its children interleave; {} explores one order",
+                       word(Choice::Reduce, "full"));
   }
   return "it remembers where it was and what it answered";
 }

@@ -15,6 +15,7 @@
 
 #include "check/replay/replay.hpp"
 #include "explore/state/step.hpp"
+#include "text/choice.hpp"
 #include "trace/conform/conform.hpp"
 
 namespace btcheck {
@@ -118,7 +119,7 @@ Result<States> states_after(const std::string& file, const BehaviorTree& tree,
     return refused("BT1808", file,
                    fmt::format("time passes at `{}` in this run, at `{}` here",
                                run.ticks, tick_name(network.ticks)),
-                   fmt::format("--tick {}", run.ticks));
+                   word(Choice::Tick, run.ticks));
   }
   std::size_t last = run.states.size();
   for (std::size_t i = 0; i < run.states.size(); ++i) {
@@ -180,7 +181,8 @@ Result<States> states_after(const std::string& file, const BehaviorTree& tree,
   if (found.stopped != StopReason::None) {
     return refused("BT1808", file,
                    "where the log ends was not found within the limits",
-                   "raise --memory or --timeout");
+                   fmt::format("raise {} or {}", word(Choice::Memory),
+                               word(Choice::Timeout)));
   }
   if (found.refused) {
     return refused("BT1808", file,

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "model/btcpp/xml_text.hpp"
-#include "text/unbroken.hpp"
+#include "text/utf8.hpp"
 #include "trace/logs/flaws.hpp"
 #include "trace/logs/ros_log.hpp"
 #include "trace/run/little_endian.hpp"

@@ -4,12 +4,15 @@
 // file's name; it is of no line.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "explore/state/limits.hpp"
+#include "text/choice.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
@@ -32,13 +35,16 @@ inline Diagnostic damage(const std::string& what) {
 inline void keep_limits(const Limits& limits, std::size_t bytes) {
   const StopReason stopped = limits.reached({.bytes = bytes});
   if (stopped == StopReason::None) return;
-  throw flaw("BT1311",
-             stopped == StopReason::Timeout
-                 ? "reading the log takes longer than --timeout allows"
-             : stopped == StopReason::Interrupted
-                 ? "reading the log was interrupted"
-                 : "reading the log takes more memory than --memory allows",
-             "record the topic of the tree alone");
+  throw flaw(
+      "BT1311",
+      stopped == StopReason::Timeout
+          ? fmt::format("reading the log takes longer than {} allows",
+                        word(Choice::Timeout))
+      : stopped == StopReason::Interrupted
+          ? "reading the log was interrupted"
+          : fmt::format("reading the log takes more memory than {} allows",
+                        word(Choice::Memory)),
+      "record the topic of the tree alone");
 }
 
 }  // namespace btcheck

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "text/choice.hpp"
 #include "trace/logs/flaws.hpp"
 #include "trace/logs/ros_recording.hpp"
 #include "trace/run/little_endian.hpp"
@@ -206,7 +207,8 @@ class McapReader {
       throw flaw("BT1302",
                  "btcheck has written this recording: it has phases to look at "
                  "and no log of the tree",
-                 "take the run itself (.itf.json), or write --to btlog");
+                 fmt::format("take the run itself (.itf.json), or write {}",
+                             word(Choice::Format, "btlog")));
     }
     const std::uint16_t id = ids[chosen_topic(topics, asked)];
     refuse_unless_cdr(channels_.at(id).topic, channels_.at(id).encoding);
@@ -254,7 +256,7 @@ std::size_t chosen_topic(const std::vector<std::string>& topics,
                  : fmt::format("the recording has no topic `{}` that logs a "
                                "tree, but {}",
                                one_line(asked), names),
-             fmt::format("write --topic {}", one_line(topics[0])));
+             fmt::format("write {}", word(Choice::Topic, one_line(topics[0]))));
 }
 
 void refuse_unless_cdr(const std::string& topic, const std::string& encoding) {

@@ -20,7 +20,7 @@
 #include <optional>
 #include <utility>
 
-#include "text/unbroken.hpp"
+#include "text/utf8.hpp"
 #include "trace/logs/flaws.hpp"
 #include "trace/logs/ros_recording.hpp"
 #include "trace/run/mcap_records.hpp"

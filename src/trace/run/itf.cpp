@@ -11,7 +11,8 @@
 #include <set>
 
 #include "text/budget.hpp"
-#include "text/unbroken.hpp"
+#include "text/choice.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck {
 namespace {
@@ -310,7 +311,8 @@ Result<RecordedRun> read_itf(std::string_view name, std::string_view text) {
     return Result<RecordedRun>{
         std::nullopt,
         {source.diagnostic(Severity::Error, "BT1301", span, message, {},
-                           "write traces with btcheck --trace-dir")}};
+                           fmt::format("write traces with btcheck {}",
+                                       word(Choice::TraceDir)))}};
   };
   try {
     return {run_from(OrderedJson::parse(text, Unbroken())), {}};

@@ -13,6 +13,7 @@
 #include <memory>
 #include <utility>
 
+#include "text/choice.hpp"
 #include "trace/logs/log_run.hpp"
 #include "trace/watch/recorded_watch.hpp"
 
@@ -307,8 +308,10 @@ std::string word_of(const WatchedRule& rule) {
 std::string moment_of(const WatchedRule& rule) {
   if (rule.outlook == Outlook::Open) {
     if (rule.is_guessed) {
-      return "  (a pause may be between two ticks or within one; --tick-ms "
-             "says how long they are)";
+      return fmt::format(
+          "  (a pause may be between two ticks or within one; {} says how long "
+          "they are)",
+          word(Choice::TickMs));
     }
     if (!rule.has_unknown) return "";
     return "  (what it asks for is not known in each state)";

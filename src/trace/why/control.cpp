@@ -8,6 +8,7 @@
 
 #include "model/tree/node_types.hpp"
 #include "model/tree/reads.hpp"
+#include "text/choice.hpp"
 #include "trace/run/skipping.hpp"
 #include "trace/why/story.hpp"
 #include "trace/why/why.hpp"
@@ -196,8 +197,9 @@ std::string runs_for_ever(const Case& about) {
   if (nodes.empty()) return "";
   return fmt::format(
       "{} {} running for ever, and nothing says that an action must end. "
-      "`--assume actions-end` leaves such runs out.",
-      about.names(nodes), nodes.size() == 1 ? "returns" : "return");
+      "`{}` leaves such runs out.",
+      about.names(nodes), nodes.size() == 1 ? "returns" : "return",
+      word(Choice::Assume, "actions-end"));
 }
 
 std::string passes_over(const Case& about) {

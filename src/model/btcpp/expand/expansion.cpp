@@ -17,6 +17,7 @@
 #include "model/btcpp/findings.hpp"
 #include "model/tree/releases.hpp"
 #include "text/budget.hpp"
+#include "text/choice.hpp"
 
 namespace btcheck {
 namespace btcpp {
@@ -170,9 +171,9 @@ class Expander {
     if (!ids.empty() && wanted.empty()) {
       finding.message = "the file does not say which tree runs";
       finding.help = fmt::format(
-          "name one by --main-tree, or in "
+          "name one by {}, or in "
           "`<root main_tree_to_execute=\"…\">`; there are {}",
-          listed(ids));
+          word(Choice::MainTree), listed(ids));
     } else if (!ids.empty()) {
       finding.message = fmt::format("no tree is called `{}`", wanted);
       finding.help =
@@ -201,8 +202,8 @@ class Expander {
          "taken as the main tree",
          fmt::format(
              "write `<root main_tree_to_execute=\"{}\">`, or choose one "
-             "by --main-tree",
-             found->id)});
+             "by {}",
+             found->id, word(Choice::MainTree))});
     return found;
   }
 
@@ -229,13 +230,14 @@ class Expander {
       others.push_back(tree.id);
     }
     if (first == nullptr) return;
-    findings_.note(first->place,
-                   {"BT1647",
-                    fmt::format("{} {} not part of `{}`", listed(others),
-                                others.size() == 1 ? "is" : "are",
-                                expansion_.subtrees[0].tree->id),
-                    "not checked here",
-                    fmt::format("`--main-tree {}` checks it", first->id)});
+    findings_.note(
+        first->place,
+        {"BT1647",
+         fmt::format("{} {} not part of `{}`", listed(others),
+                     others.size() == 1 ? "is" : "are",
+                     expansion_.subtrees[0].tree->id),
+         "not checked here",
+         fmt::format("`{}` checks it", word(Choice::MainTree, first->id))});
   }
 
   std::vector<std::string> tree_ids() const {
@@ -331,9 +333,11 @@ class Expander {
          "this SubTree names it",
          did_you_mean(
              node.id, tree_ids(),
-             "include the file that has it, by `<include path=\"…\"/>`, or "
-             "check a folder that holds both files; a tree of another package "
-             "can be described as a leaf, by --leaves")});
+             fmt::format(
+                 "include the file that has it, by `<include path=\"…\"/>`, or "
+                 "check a folder that holds both files; a tree of another "
+                 "package can be described as a leaf, by {}",
+                 word(Choice::Leaves)))});
   }
 
   void report_recursion(const BtcppNode& node) {

@@ -20,6 +20,7 @@
 #include "model/tree/granted.hpp"
 #include "model/tree/releases.hpp"
 #include "text/budget.hpp"
+#include "text/choice.hpp"
 #include "text/numbers.hpp"
 
 namespace btcheck {
@@ -105,11 +106,12 @@ class Conversion final : PortReader {
   }
 
   void refuse_unmodelled(const BtcppPlace& place, std::string message) {
-    findings_.error(
-        place, {"BT1655", std::move(message),
-                fmt::format("what {} does then is not modelled",
-                            profile_name(options_.profile)),
-                "check it as a newer release runs it, by --profile btcpp-4.3"});
+    findings_.error(place,
+                    {"BT1655", std::move(message),
+                     fmt::format("what {} does then is not modelled",
+                                 profile_name(options_.profile)),
+                     fmt::format("check it as a newer release runs it, by {}",
+                                 word(Choice::Profile, "btcpp-4.3"))});
   }
 
   void refuse_halts() {
@@ -165,15 +167,19 @@ class Conversion final : PortReader {
                      names.size() == 1 ? "is" : "are", first.reason),
          "",
          first.reason.ends_with(kMayBeEnumerator)
-             ? "what rests on it is undecided; declare it as it is registered: "
-               "`enums = { RED = 1 }` in btcheck.toml, `(defenum RED 1)` in a "
-               "file for --leaves, or `<ScriptingEnum name=\"RED\" "
-               "value=\"1\"/>` in a TreeNodesModel"
-         : first.is_rough ? "every value is allowed; a run that is found is "
-                            "executed again with real values"
-                          : "every value is allowed, at any time; a model that "
-                            "says which way a port goes, or a contract of the "
-                            "leaf, says more (--models, --leaves)"});
+             ? fmt::format(
+                   "what rests on it is undecided; declare it as it is "
+                   "registered: `enums = {{ RED = 1 }}` in btcheck.toml, "
+                   "`(defenum RED 1)` in a file for {}, or `<ScriptingEnum "
+                   "name=\"RED\" value=\"1\"/>` in a TreeNodesModel",
+                   word(Choice::Leaves))
+         : first.is_rough
+             ? "every value is allowed; a run that is found is "
+               "executed again with real values"
+             : fmt::format("every value is allowed, at any time; a model that "
+                           "says which way a port goes, or a contract of the "
+                           "leaf, says more ({}, {})",
+                           word(Choice::Models), word(Choice::Leaves))});
   }
 
   void tell_dead(const NeverTicked& found) {
@@ -339,7 +345,9 @@ class Conversion final : PortReader {
           {"BT1634",
            fmt::format("`{}` of {} is {:.0f} ticks of {} ms: taken as {}", name,
                        element().id, ticks, options_.tick_ms, kMostTicks),
-           "", "a longer tick makes it fewer: --tick-ms"});
+           "",
+           fmt::format("a longer tick makes it fewer: {}",
+                       word(Choice::TickMs))});
     }
     const int whole = static_cast<int>(std::min<double>(ticks, kMostTicks));
     return {whole, whole};

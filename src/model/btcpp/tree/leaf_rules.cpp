@@ -13,6 +13,7 @@
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/tree/node_scripts.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/choice.hpp"
 #include "text/wildcards.hpp"
 
 namespace btcheck::btcpp {
@@ -264,8 +265,9 @@ void LeafRules::check_ports(std::uint32_t instance,
          fmt::format("{} may write `{}`: no model says which way its port goes",
                      leaf.id, entry.name),
          "after which it has any of these values",
-         "declare the port in a file for --models, or give the leaf a contract "
-         "that names the entry"});
+         fmt::format("declare the port in a file for {}, or give the leaf a "
+                     "contract that names the entry",
+                     word(Choice::Models))});
   }
 }
 
