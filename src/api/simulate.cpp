@@ -118,8 +118,10 @@ class Simulating {
                                course);
   }
 
+  // To tell of a run takes as long as to make it: it has half of the time.
   Spent stopped() {
     if (spent_ == Spent::Nothing) spent_ = call_.look();
+    if (spent_ == Spent::Nothing && !call_.has_spare()) spent_ = Spent::Time;
     return spent_;
   }
 

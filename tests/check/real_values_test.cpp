@@ -416,7 +416,7 @@ TEST_CASE("no run is shown that the scripts' arithmetic refutes") {
     return text ? static_cast<unsigned>(std::atoi(text)) : otherwise;
   };
   const bool is_long = std::getenv("BTCHECK_LONG") != nullptr;
-  const unsigned trees = number_in("BTCHECK_TREES", is_long ? 20'000 : 200);
+  const unsigned trees = number_in("BTCHECK_TREES", is_long ? 20'000 : 100);
   const unsigned begin = number_in("BTCHECK_FIRST_SEED", 0);
   Counts counts;
   for (unsigned seed = begin; seed < begin + trees; ++seed) {

@@ -163,7 +163,7 @@ std::string line_of_rule(const std::string& rules, std::size_t number) {
 
 TEST_CASE("a tree has the same verdicts in both languages") {
   const std::uint64_t seed = seed_or(1);
-  const auto trees = by_effort<std::uint64_t>(150, 1500);
+  const auto trees = by_effort<std::uint64_t>(75, 1500);
   int rules_asked = 0;
   int violated = 0;
   for (std::uint64_t i = 0; i < trees; ++i) {

@@ -283,7 +283,7 @@ constexpr std::array<Profile, 5> kProfiles = {
 
 TEST_CASE("findings on random XML trees are so") {
   const std::uint64_t first = seed_or(1);
-  const auto trees = by_effort<std::uint64_t>(1500, 20'000);
+  const auto trees = by_effort<std::uint64_t>(800, 20'000);
   Counts counts;
   for (std::uint64_t i = 0; i < trees; ++i) {
     TreeReading reading;
@@ -302,7 +302,7 @@ TEST_CASE("findings on random XML trees are so") {
 
 TEST_CASE("findings on random XML trees with scripts are so") {
   const std::uint64_t first = seed_or(1);
-  const auto trees = by_effort<std::uint64_t>(120, 1500);
+  const auto trees = by_effort<std::uint64_t>(60, 1500);
   Counts counts;
   for (std::uint64_t i = 0; i < trees; ++i) {
     const Profile profile = kProfiles[1 + i % 4];

@@ -365,7 +365,7 @@ RandomTreeWeights trees_of_numbers(std::uint64_t seed) {
 
 TEST_CASE("numbers told apart by region answer as all their values do") {
   const std::uint64_t first = seed_or(1);
-  const auto trees = by_effort<std::uint64_t>(250, 5000);
+  const auto trees = by_effort<std::uint64_t>(120, 5000);
   Census census;
   for (std::uint64_t i = 0; i < trees; ++i) {
     const std::uint64_t seed = first * 1'000'003 + i;

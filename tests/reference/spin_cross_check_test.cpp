@@ -291,7 +291,7 @@ TEST_CASE("SPIN counts the states and steps of random trees") {
     return;
   }
   SplitMix64 random(seed_or(1));
-  const int trees = by_effort(20, 200);
+  const int trees = by_effort(12, 200);
   std::uint64_t states = 0;
   for (int i = 0; i < trees; ++i) {
     CAPTURE(i);

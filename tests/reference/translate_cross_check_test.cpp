@@ -90,7 +90,7 @@ TEST_CASE("formulas are evaluated on runs as they are defined") {
 }
 
 TEST_CASE("simplified formulas mean the same on random words") {
-  check_random_formulas(1, 20000, 40, simplifies_wrongly);
+  check_random_formulas(1, 10000, 40, simplifies_wrongly);
 }
 
 TEST_CASE("automata accept the words that satisfy the formula") {

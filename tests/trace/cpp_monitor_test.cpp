@@ -246,7 +246,7 @@ TEST_CASE("monitors as C++ say of logs what trace says") {
   std::string expected;
   int decided = 0;
   std::size_t added = 0;
-  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const BehaviorLog log = some_log(*tree.value, network, seed);
     const BehaviorLog simple = with_simple_actions(log);
     const BehaviorLog late = with_late_parents(log);
