@@ -166,7 +166,8 @@ struct Change {
 };
 
 struct Finding {
-  std::string code;  // "BT2208"; explain() says what it means
+  std::string code;  // "BT2208"; explain() says what it means. BT25xx
+                     // are questions that the owner of the tree can answer
   Level level = Level::Warning;
   std::string message;  // its first line is a sentence that stands alone
   std::string help;     // what to do about it; "" where nothing is known

@@ -26,9 +26,11 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+enum class Told : std::uint8_t { Findings, Questions };
+
 // "BT2208 checks: A B": the code, the node and the others of each.
 std::string found_in(const std::string& body, const std::string& models,
-                     CheckOptions options = {}) {
+                     CheckOptions options = {}, Told wanted = Told::Findings) {
   const std::string text =
       "<root BTCPP_format=\"4\" main_tree_to_execute=\"T\">"
       "<BehaviorTree ID=\"T\">\n" +
@@ -39,12 +41,17 @@ std::string found_in(const std::string& body, const std::string& models,
   std::string found;
   for (const TreeFinding& each : result.files[0].findings) {
     CHECK((each.run.has_value() || each.code != "BT2207"));
+    if (is_question(each) != (wanted == Told::Questions)) continue;
     found += (found.empty() ? "" : "; ") + std::string(each.code) + " " +
              result.tree->node(each.node).name;
     if (each.severity == Severity::Error) found += "!";
     if (each.severity == Severity::Note) found += "?";
   }
   return found;
+}
+
+std::string asked_in(const std::string& body, const std::string& models) {
+  return found_in(body, models, {}, Told::Questions);
 }
 
 // The message and the mechanism of the first finding.
@@ -86,6 +93,95 @@ TEST_CASE("what is begun is undone by a name of the same words") {
   CHECK(joined(words_of_undoing("StartVacuum")) == "stop vacuum");
   CHECK(joined(words_of_undoing("Switch_On")) == "switch off");
   CHECK(words_of_undoing("Drive").empty());
+}
+
+TEST_CASE("a condition is asked once, before what may last") {
+  CHECK(asked_in("<Sequence><IsOpen/><A/></Sequence>", kThree) ==
+        "BT2501 IsOpen?");
+  CHECK(asked_in("<ReactiveSequence><IsOpen/><A/></ReactiveSequence>",
+                 kThree) == "");
+  // Told as a finding.
+  CHECK(asked_in("<Sequence><BatteryOk/><A/></Sequence>", kThree) == "");
+  // It is asked until it is so, and then nothing is left to do.
+  CHECK(asked_in("<Fallback><IsOpen/><A/></Fallback>", kThree) == "");
+  CHECK(asked_in("<Fallback><Sequence><IsOpen/><A/></Sequence><B/></Fallback>",
+                 kThree) == "BT2501 IsOpen?");
+  // Another one asks the same all the time.
+  CHECK(asked_in("<ReactiveSequence><IsOpen/><Sequence><IsOpen/><A/></Sequence>"
+                 "</ReactiveSequence>",
+                 kThree) == "");
+  // It does not matter, or is asked anew in each round.
+  CHECK(asked_in("<Sequence><ForceSuccess><IsOpen/></ForceSuccess><A/>"
+                 "</Sequence>",
+                 kThree) == "");
+  CHECK(asked_in("<KeepRunningUntilFailure><Sequence><IsOpen/><A/></Sequence>"
+                 "</KeepRunningUntilFailure>",
+                 kThree) == "");
+}
+
+TEST_CASE("what a Parallel may cut off is asked") {
+  const std::string two = "<Sequence><A/><B/></Sequence>";
+  CHECK(asked_in("<Parallel>" + two + "<C/></Parallel>", kThree) ==
+        "BT2502 Parallel?");
+  CHECK(asked_in("<Parallel>" + two +
+                     "<ForceSuccess><C/></ForceSuccess>"
+                     "</Parallel>",
+                 kThree) == "");
+  CHECK(asked_in("<Parallel><A/><B/></Parallel>", kThree) == "");
+}
+
+TEST_CASE("a failure that nobody hears of is asked about") {
+  CHECK(asked_in("<RetryUntilSuccessful num_attempts=\"2\"><ForceSuccess><A/>"
+                 "</ForceSuccess></RetryUntilSuccessful>",
+                 kThree) == "BT2503 ForceSuccess?");
+  CHECK(asked_in("<Sequence><ForceSuccess><A/></ForceSuccess><B/></Sequence>",
+                 kThree) == "BT2503 ForceSuccess?");
+  CHECK(asked_in("<KeepRunningUntilFailure><ForceSuccess><A/></ForceSuccess>"
+                 "</KeepRunningUntilFailure>",
+                 kThree) == "");
+}
+
+TEST_CASE("a limit, a loop without time, an answer that calls work off") {
+  const std::string models =
+      std::string(kThree) +
+      "<Condition ID=\"Read\">"
+      "<output_port name=\"x\" type=\"int\"/></Condition>";
+  const auto limited = [&](const std::string& code, const std::string& done) {
+    return "<ReactiveSequence><Read x=\"{x}\"/><ReactiveFallback>"
+           "<ReactiveSequence><ScriptCondition code=\"" +
+           code + "\"/>" + done +
+           "</ReactiveSequence><B/></ReactiveFallback></ReactiveSequence>";
+  };
+  CHECK(asked_in(limited("x &lt; 20", "<A/>"), models) ==
+        "BT2504 ScriptCondition?");
+  // It remembers that it has begun.
+  CHECK(asked_in("<Sequence><Script code=\"on := false\"/>" +
+                     limited("x &lt; 20 || (on &amp;&amp; x &lt; 80)",
+                             "<Sequence><Script code=\"on := true\"/><A/>"
+                             "</Sequence>") +
+                     "</Sequence>",
+                 models) == "");
+  CHECK(asked_in("<Repeat num_cycles=\"-1\"><A/></Repeat>", kThree) ==
+        "BT2505 Repeat?");
+  CHECK(asked_in("<Repeat num_cycles=\"-1\"><Sequence><A/><Sleep msec=\"500\"/>"
+                 "</Sequence></Repeat>",
+                 kThree) == "");
+  CHECK(asked_in("<ReactiveFallback><IsOpen/><A/></ReactiveFallback>",
+                 kThree) == "BT2506 IsOpen?");
+  CHECK(asked_in("<Fallback><IsOpen/><A/></Fallback>", kThree) == "");
+}
+
+TEST_CASE("a node that has one answer where the other one is waited for") {
+  CHECK(found_in("<Sequence><Fallback><IsOpen/><AlwaysSuccess/></Fallback><A/>"
+                 "</Sequence>",
+                 kThree) == "BT2213 Fallback");
+  CHECK(found_in("<Sequence><Sequence name=\"inner\"><A/><AlwaysFailure/>"
+                 "</Sequence><B/></Sequence>",
+                 kThree) == "BT2213 inner");
+  // It waits, or does something, where the condition fails.
+  CHECK(found_in("<Sequence><Fallback><IsOpen/><Sleep msec=\"500\"/></Fallback>"
+                 "<A/></Sequence>",
+                 kThree) == "");
 }
 
 TEST_CASE("a Parallel of which one is enough cuts off the other") {

@@ -285,7 +285,7 @@ TEST_CASE("what the engine does is what a well-typed script does") {
                       << " are decided, and " << counts.known << " of "
                       << counts.assigned << " entries known afterwards");
   CHECK(counts.decided > 500);
-  CHECK(counts.small > 200);
+  CHECK(counts.small > 150);
   // A condition that grows beyond its bound says less.
   CHECK(counts.exact_small * 1000 > counts.small * 995);
   CHECK(counts.exact * 100 > counts.decided * 94);

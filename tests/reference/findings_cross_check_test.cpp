@@ -44,7 +44,7 @@ class Confirmation {
       : network_(network),
         naive_(network),
         space_(space),
-        suspicions_(suspicions_of(tree)) {}
+        suspicions_(suspicions_of(NormalTree(tree))) {}
 
   // What is wrong with a finding, or "".
   std::string flaw(const TreeFinding& finding) const {
@@ -53,7 +53,9 @@ class Confirmation {
       if (!execute(*finding.run, run)) return "its run cannot be executed";
     }
     if (is_so_by_answers(finding)) return "";
-    if (finding.code == "BT2205" || finding.code == "BT2206") {
+    const bool is_by_run = finding.code == "BT2205" ||
+                           finding.code == "BT2206" || finding.code == "BT2501";
+    if (is_by_run) {
       if (is_so_by_run(finding, run)) return "";
     }
     for (const Suspicion& each : suspicions_) {
@@ -105,6 +107,9 @@ class Confirmation {
     }
     if (finding.code == "BT2204") {
       return !can(node, Success) && can(node, Failure);
+    }
+    if (finding.code == "BT2213") {
+      return !can(node, Success) || !can(node, Failure);
     }
     if (finding.code == "BT2212") {
       return !can(node, Success) && !can(node, Failure) && !can(node, Running);

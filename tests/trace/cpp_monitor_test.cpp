@@ -277,7 +277,7 @@ TEST_CASE("monitors as C++ say of logs what trace says") {
       }
     }
   }
-  CHECK(decided > 150);
+  CHECK(decided > 75);
   CHECK(added > 100);
   std::ofstream(folder.path() / "events") << events;
   const Outcome compiled = run_in(

@@ -23,15 +23,17 @@ TreeFacts::UsesBy::UsesBy(const std::vector<EntryUse>& uses, std::size_t keys,
   for (const EntryUse& use : uses) sorted_[next[key(use)]++] = &use;
 }
 
-TreeFacts::TreeFacts(const BehaviorTree& tree)
-    : tree_(tree),
-      of_node_(tree.entry_uses, tree.nodes.size(),
+TreeFacts::TreeFacts(const NormalTree& normal)
+    : normal_(normal),
+      tree_(normal.tree()),
+      of_node_(tree_.entry_uses, tree_.nodes.size(),
                [](const EntryUse& use) { return index(use.node); }),
-      of_entry_(tree.entry_uses, tree.entries.size(),
+      of_entry_(tree_.entry_uses, tree_.entries.size(),
                 [](const EntryUse& use) { return use.entry; }),
-      answers_(possible_answers(tree)),
-      end_(tree.nodes.size()),
-      may_run_(tree.nodes.size()) {
+      answers_(possible_answers(tree_)),
+      end_(tree_.nodes.size()),
+      may_run_(tree_.nodes.size()) {
+  const BehaviorTree& tree = tree_;
   for (std::uint32_t n = static_cast<std::uint32_t>(end_.size()); n-- > 0;) {
     const Node& node = tree.nodes[n];
     end_[n] = node.children.empty() ? n + 1 : end_[index(node.children.back())];
@@ -78,6 +80,10 @@ bool TreeFacts::is_deed(NodeId id) const {
          !is_condition(id);
 }
 
+bool TreeFacts::is_constant(NodeId id) const {
+  return node(id).id == "AlwaysSuccess" || node(id).id == "AlwaysFailure";
+}
+
 bool TreeFacts::has_deed(NodeId node) const {
   return deeds_before_[index(node)] < deeds_before_[end_[index(node)]];
 }
@@ -115,8 +121,8 @@ std::size_t TreeFacts::place_of(NodeId id) const {
 }
 
 std::string TreeFacts::told(NodeId node) const {
-  if (names_.empty()) names_ = short_names(tree_);
-  return "`" + names_[index(node)] + "`";
+  if (names_.empty()) names_ = short_names(normal_.written());
+  return "`" + names_[index(normal_.shown(node))] + "`";
 }
 
 std::string TreeFacts::told(const std::vector<NodeId>& nodes) const {
@@ -128,6 +134,12 @@ std::string TreeFacts::told(const std::vector<NodeId>& nodes) const {
 SourcePlace TreeFacts::place(NodeId id) const {
   const SourceSpan& span = node(id).span;
   return {tree_.file_of(id), span.line, span.column};
+}
+
+SourcePlace TreeFacts::whole(NodeId id) const {
+  const NodeId outermost = normal_.outermost(id);
+  const SourceSpan& span = normal_.written().node(outermost).span;
+  return {normal_.written().file_of(outermost), span.line, span.column};
 }
 
 std::string TreeFacts::type_word(NodeId id) const {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "check/findings/normal_tree.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree/tree.hpp"
 
@@ -16,7 +17,8 @@ namespace btcheck {
 
 class TreeFacts {
  public:
-  explicit TreeFacts(const BehaviorTree& tree);
+  // Must outlive it.
+  explicit TreeFacts(const NormalTree& normal);
 
   const BehaviorTree& tree() const { return tree_; }
   const Node& node(NodeId id) const { return tree_.node(id); }
@@ -39,6 +41,8 @@ class TreeFacts {
   // A leaf that does something: no condition, no script, no wait.
   bool is_deed(NodeId node) const;
   bool has_deed(NodeId node) const;
+  // AlwaysSuccess, AlwaysFailure: all that it has is its answer.
+  bool is_constant(NodeId node) const;
   // Through SubTrees and decorators that pass their child's answer on.
   NodeId core(NodeId node) const;
   // Does the mission go on behind this node when it has succeeded?
@@ -62,8 +66,9 @@ class TreeFacts {
     return of_entry_.uses(entry);
   }
 
-  // Where an edit names the node.
+  // Where an edit names the node; and with all that stands around it alone.
   SourcePlace place(NodeId node) const;
+  SourcePlace whole(NodeId node) const;
   // How the file writes its type.
   std::string type_word(NodeId node) const;
   // Of an XML tree for version 4 of the engine, which has scripts.
@@ -84,6 +89,7 @@ class TreeFacts {
     std::vector<const EntryUse*> sorted_;
   };
 
+  const NormalTree& normal_;
   const BehaviorTree& tree_;
   UsesBy of_node_;
   UsesBy of_entry_;

@@ -91,7 +91,7 @@ class FailureFlow : Look {
     const TreeEdit turn =
         is_turned
             ? TreeEdit(UnwrapNode{place(asked)})
-            : TreeEdit(WrapNodes{place(asked), place(asked), {"Inverter"}});
+            : TreeEdit(WrapNodes{whole(asked), whole(asked), {"Inverter"}});
     return {{turn, ChangeType{place(id), "ReactiveSequence"}}};
   }
 

@@ -18,6 +18,7 @@ namespace {
 
 // What loses the mission or leaves an actuator running comes first.
 int rank_of(const TreeFinding& finding) {
+  if (is_question(finding)) return 1000 + finding.rank;
   constexpr std::string_view kFirst[] = {"BT2208", "BT2207", "BT2206",
                                          "BT2210", "BT2209", "BT2215",
                                          "BT2202", "BT2216"};
@@ -27,9 +28,18 @@ int rank_of(const TreeFinding& finding) {
   return severity * 100 + static_cast<int>(found - std::begin(kFirst));
 }
 
-// Whether the other one tells it already: as what is dead behind a cause, or as
-// what a node can never do where its rule is said.
+bool is_about(const TreeFinding& finding, NodeId node) {
+  return finding.node == node || std::ranges::count(finding.others, node) > 0;
+}
+
+// Whether the other one tells it already: as what is dead behind a cause, as
+// what a node can never do where its rule is said, or as an answer to what
+// would be asked of the same nodes.
 bool is_told_by(const TreeFinding& finding, const TreeFinding& other) {
+  if (is_question(finding)) {
+    return !is_question(other) && is_about(finding, other.node) &&
+           is_about(other, finding.node);
+  }
   if (finding.code == "BT2201") {
     return std::ranges::count(other.others, finding.node) > 0;
   }
@@ -110,9 +120,9 @@ std::vector<NodeId> Look::writers_of(
   return writers;
 }
 
-std::vector<Suspicion> suspicions_of(const BehaviorTree& tree) {
+std::vector<Suspicion> suspicions_of(const NormalTree& normal) {
   const Stage stage("suspicious places were looked for");
-  const TreeFacts facts(tree);
+  const TreeFacts facts(normal);
   Suspicions found;
   suspect_failure_flow(facts, found);
   suspect_swallowed(facts, found);
@@ -123,6 +133,8 @@ std::vector<Suspicion> suspicions_of(const BehaviorTree& tree) {
   suspect_endings(facts, found);
   suspect_unwritten(facts, found);
   suspect_lasting(facts, found);
+  suspect_open_questions(facts, found);
+  for (Suspicion& each : found) normal.put_back(each);
   return found;
 }
 
@@ -149,7 +161,9 @@ void fold_many(std::vector<TreeFinding>& findings) {
   }
   std::vector<bool> is_folded(findings.size());
   for (const auto& [code, places] : of_kind) {
-    if (places.size() <= kMostOfKind) continue;
+    if (places.size() <= kMostOfKind || is_question(findings[places[0]])) {
+      continue;
+    }
     TreeFinding& last = findings[places[kMostOfKind - 1]];
     for (std::size_t i = kMostOfKind; i < places.size(); ++i) {
       is_folded[places[i]] = true;

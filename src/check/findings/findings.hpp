@@ -5,13 +5,14 @@
 
 #include <vector>
 
+#include "check/findings/normal_tree.hpp"
 #include "check/findings/suspicion.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck {
 
 // What is to be watched for while the tree is searched.
-std::vector<Suspicion> suspicions_of(const BehaviorTree& tree);
+std::vector<Suspicion> suspicions_of(const NormalTree& normal);
 
 // The most serious first, then in the order of the tree; what another finding
 // tells already is left out.

@@ -97,7 +97,7 @@ class Guards : Look {
     const NewNode condition{"ScriptCondition",
                             {{"code", fails ? negated_script(asked) : asked}}};
     return {RemoveAttribute{place(id), fails ? "_failureIf" : "_successIf"},
-            WrapNodes{place(id), place(id), {reactive}, {condition}}};
+            WrapNodes{whole(id), whole(id), {reactive}, {condition}}};
   }
 
   // Precondition(act) as ReactiveSequence(condition, act).
@@ -136,7 +136,7 @@ class Guards : Look {
                                    "has succeeded",
                                    told(deed)),
                 .help = fmt::format("put it before {}", told(deed)),
-                .repairs = {{MoveBefore{place(children[i]), place(deed)}}}},
+                .repairs = {{MoveBefore{whole(children[i]), whole(deed)}}}},
            .shown_by = {{deed, LocationRole::Running}}});
     }
   }
@@ -168,10 +168,10 @@ class Guards : Look {
       if (!facts_.may_run(child)) continue;
       const auto renewing = writers_of(entries_of(child, ScriptTime::While));
       // A script that only gives it a first value leaves the rest to the
-      // program; a leaf decides.
+      // program; a leaf decides, by its port.
       const bool is_beside = std::ranges::any_of(renewing, [&](NodeId writer) {
         return facts_.is_in(writer, id) && index(writer) < index(child) &&
-               facts_.node(writer).type == NodeType::Action;
+               decides(writer, child);
       });
       const bool is_renewed = std::ranges::any_of(renewing, [&](NodeId writer) {
         return facts_.is_in(writer, child) || may_tick_while(writer, child);
@@ -200,6 +200,14 @@ class Guards : Look {
           {each, LocationRole::Tick, {{each, NodeStatus::Running}}});
     }
     found_.push_back(std::move(made));
+  }
+
+  bool decides(NodeId leaf, NodeId guarded) const {
+    const auto asked = entries_of(guarded, ScriptTime::While);
+    return std::ranges::any_of(facts_.uses_of(leaf), [&](const EntryUse* use) {
+      return use->is_port && use->writes &&
+             std::ranges::count(asked, use->entry) > 0;
+    });
   }
 
   // Parallel(KeepRunningUntilFailure(all is well), act) that waits for more

@@ -35,6 +35,7 @@ class Look {
   std::vector<NodeId> writers_of(
       const std::vector<std::uint32_t>& entries) const;
   SourcePlace place(NodeId node) const { return facts_.place(node); }
+  SourcePlace whole(NodeId node) const { return facts_.whole(node); }
 
   const TreeFacts& facts_;
   Suspicions& found_;
@@ -68,5 +69,7 @@ void suspect_endings(const TreeFacts& facts, Suspicions& found);
 void suspect_unwritten(const TreeFacts& facts, Suspicions& found);
 // Entries that are set and not reset; what is begun and not ended.
 void suspect_lasting(const TreeFacts& facts, Suspicions& found);
+// What is possible as the tree stands, and perhaps meant.
+void suspect_open_questions(const TreeFacts& facts, Suspicions& found);
 
 }  // namespace btcheck

@@ -372,10 +372,22 @@ class Lasting : Look {
            (node.type == NodeType::Repeat && node.repetitions != 1);
   }
 
+  bool is_in_inner_loop(NodeId node, NodeId loop) const {
+    for (NodeId at = facts_.parent(node); at != loop; at = facts_.parent(at)) {
+      const Flow flow = info_of(facts_.node(at).type).flow;
+      if (flow == Flow::Retries || flow == Flow::Repeats ||
+          flow == Flow::UntilFailure) {
+        return true;
+      }
+    }
+    return false;
+  }
+
   bool look_at_latch(const EntryUse& asked, NodeId loop) {
     std::set<std::string> inside;
     std::set<std::string> outside;
     std::optional<NodeId> sets;
+    bool is_once = true;
     for (const EntryUse* each : facts_.uses_of_entry(asked.entry)) {
       ask_budget();
       const EntryUse& use = *each;
@@ -383,14 +395,18 @@ class Lasting : Look {
       if (use.is_port) return false;
       const bool is_inside = facts_.is_in(use.node, loop) && use.node != loop;
       (is_inside ? inside : outside).insert(use.literal);
-      if (is_inside) sets = use.node;
+      if (!is_inside) continue;
+      is_once = is_once && is_done_once(asked.node, use.node);
+      sets = use.node;
     }
     if (inside.size() != 1 || outside.size() != 1) return false;
     if (outside.begin()->empty() || *outside.begin() == *inside.begin()) {
       return false;
     }
+    // What is counted once in each round is the rounds.
+    if (inside.begin()->empty() && !is_in_inner_loop(*sets, loop)) return false;
     if (!asked.when && ends(asked.node, loop)) return false;
-    if (is_done_once(asked.node, *sets)) return false;
+    if (is_once) return false;
     const std::string& entry = facts_.tree().entries[asked.entry];
     std::vector<NodeId> others = {*sets, loop};
     add_neighbours(asked.node, loop, others);
@@ -423,9 +439,9 @@ class Lasting : Look {
         info_of(facts_.node(body).type).flow == Flow::OnSuccess &&
         !is_reactive(facts_.node(body));
     if (is_sequence) {
-      return {{InsertBefore{place(facts_.node(body).children[0]), first}}};
+      return {{InsertBefore{whole(facts_.node(body).children[0]), first}}};
     }
-    return {{WrapNodes{place(body), place(body), {"Sequence"}, {first}}}};
+    return {{WrapNodes{whole(body), whole(body), {"Sequence"}, {first}}}};
   }
 
   // Fallback(is set up, Sequence(set up, note it)), or a _skipIf around what

@@ -46,6 +46,17 @@ class Restarts : Look {
     });
   }
 
+  // `visits := visits + 1`: twice is not as good as once.
+  bool accumulates(NodeId leaf) const {
+    const auto uses = facts_.uses_of(leaf);
+    return facts_.node(leaf).type == NodeType::Script &&
+           std::ranges::any_of(uses, [&](const EntryUse* write) {
+             return write->writes && !write->when &&
+                    std::ranges::count(entries_of(leaf, std::nullopt),
+                                       write->entry) > 0;
+           });
+  }
+
   // The first thing done in a branch whose success asks for it: behind
   // conditions or none.
   std::optional<NodeId> done_at_once(NodeId id) const {
@@ -54,7 +65,8 @@ class Restarts : Look {
       const Node& node = facts_.node(id);
       if (is_leaf(node.type)) {
         const bool counts =
-            facts_.is_deed(id) && !only_looks(node.id) && !has_output(id);
+            accumulates(id) ||
+            (facts_.is_deed(id) && !only_looks(node.id) && !has_output(id));
         return counts ? std::optional(id) : std::nullopt;
       }
       const Flow flow = info_of(node.type).flow;
@@ -206,12 +218,12 @@ class Restarts : Look {
   // With guards before it they stay reactive.
   std::vector<Repair> done_once(NodeId id, const Node& node,
                                 std::size_t first) const {
-    const Repair whole = {ChangeType{place(id), "Sequence"}};
-    if (first == 0) return {whole};
-    return {{WrapNodes{place(node.children[first]),
-                       place(node.children.back()),
+    const Repair in_order = {ChangeType{place(id), "Sequence"}};
+    if (first == 0) return {in_order};
+    return {{WrapNodes{whole(node.children[first]),
+                       whole(node.children.back()),
                        {"Sequence"}}},
-            whole};
+            in_order};
   }
 
   // Pipeline(Recovery(RateController(…))): it is reset, so that it is due at
@@ -249,7 +261,7 @@ class Restarts : Look {
                          told(resets)),
                      .help = fmt::format("put it around {}", told(resets)),
                      .repairs = {{UnwrapNode{place(id)},
-                                  WrapNodes{place(resets), place(resets),
+                                  WrapNodes{whole(resets), whole(resets),
                                             as_written(id)}}}},
          .shown_by = {{resets, LocationRole::Success}}});
   }

@@ -36,7 +36,14 @@ struct TreeFinding {
   std::vector<Repair> repairs = {};
   std::optional<CheckedRepair> repair = {};
   std::vector<NodeId> folded = {};  // others of this kind that it speaks for
+  int rank = 0;                     // of a question: the smaller, the earlier
 };
+
+// What the file does not say and its owner knows. Its code is of a family of
+// its own, and it is told in a line, after the findings.
+inline bool is_question(const TreeFinding& finding) {
+  return finding.code.starts_with("BT25");
+}
 
 // A step with which a node gets to a place, while others have these statuses.
 struct Sighting {

@@ -43,7 +43,7 @@ class Swallowed : Look {
         is_script ? facts_.has_deed(id)
                   : std::ranges::all_of(
                         tried, [&](NodeId each) { return is_attempt(each); });
-    if (!are_attempts) return;
+    if (!are_attempts || is_remembered(tried, last)) return;
     Suspicion& made =
         add({.code = "BT2207",
              .node = last,
@@ -52,8 +52,8 @@ class Swallowed : Look {
                  "{} succeeds although all that it tries fails", told(id)),
              .why = std::string(*why),
              .help = fmt::format("put a ForceFailure around {}", told(last)),
-             .repairs = {{WrapNodes{place(node.children.back()),
-                                    place(node.children.back()),
+             .repairs = {{WrapNodes{whole(node.children.back()),
+                                    whole(node.children.back()),
                                     {"ForceFailure"}}}}});
     Sighting seen{last, LocationRole::Success};
     for (const NodeId child : tried) {
@@ -85,6 +85,29 @@ class Swallowed : Look {
     const std::string& id = facts_.node(first).id;
     return facts_.is_deed(first) && facts_.answers(first).failure &&
            !only_tells(id) && !only_looks(id);
+  }
+
+  // What a script of the attempt notes of its end is asked for later.
+  bool is_remembered(const std::vector<NodeId>& tried, NodeId last) const {
+    return std::ranges::any_of(tried, [&](NodeId each) {
+      for (NodeId at = each; at < facts_.end_of(each); at = behind(at)) {
+        if (is_asked_behind(at, last)) return true;
+      }
+      return false;
+    });
+  }
+  static NodeId behind(NodeId node) { return NodeId{index(node) + 1}; }
+
+  bool is_asked_behind(NodeId writer, NodeId last) const {
+    const auto uses = facts_.uses_of(writer);
+    return std::ranges::any_of(uses, [&](const EntryUse* write) {
+      if (!write->writes || !write->when) return false;
+      const auto of_entry = facts_.uses_of_entry(write->entry);
+      return std::ranges::any_of(of_entry, [&](const EntryUse* read) {
+        ask_budget();
+        return read->reads && !read->is_port && read->node > last;
+      });
+    });
   }
 
   // A condition asks for what the script writes.

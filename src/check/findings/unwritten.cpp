@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "check/findings/kinds.hpp"
@@ -19,7 +21,8 @@ namespace {
 // been ticked.
 class Unwritten : Look {
  public:
-  using Look::Look;
+  Unwritten(const TreeFacts& facts, Suspicions& found)
+      : Look(facts, found), beginning_(with_first_value(facts.tree())) {}
 
   void look_at_entries() {
     std::map<std::uint32_t, Uses> by_entry;
@@ -55,13 +58,21 @@ class Unwritten : Look {
 
   // A file beside the tree says what the program puts there at first.
   bool begins_with_value(std::uint32_t entry) const {
-    const BehaviorTree& tree = facts_.tree();
-    return std::ranges::any_of(tree.variables, [&](const StateVariable& each) {
-      if (each.name != tree.entries[entry] || each.values.empty()) return false;
+    return beginning_.contains(facts_.tree().entries[entry]);
+  }
+
+  static std::unordered_set<std::string_view> with_first_value(
+      const BehaviorTree& tree) {
+    std::unordered_set<std::string_view> names;
+    for (const StateVariable& each : tree.variables) {
+      if (each.values.empty()) continue;
       const EntryValue& first =
           each.values[static_cast<std::size_t>(each.initial)];
-      return first.numbers || first.text || first.is_any_text;
-    });
+      if (first.numbers || first.text || first.is_any_text) {
+        names.insert(each.name);
+      }
+    }
+    return names;
   }
 
   bool is_known_to_both(NodeId reader,
@@ -102,6 +113,8 @@ class Unwritten : Look {
     made.shown_by = {std::move(seen)};
     found_.push_back(std::move(made));
   }
+
+  const std::unordered_set<std::string_view> beginning_;  // names of entries
 };
 
 }  // namespace

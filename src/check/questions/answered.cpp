@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
+#include <unordered_map>
 
 #include "check/findings/edits.hpp"
 #include "check/findings/facts.hpp"
 #include "model/tree/leaf_names.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 #include "text/findings.hpp"
 
 namespace btcheck {
@@ -19,13 +22,25 @@ namespace {
 // From the answers of the search.
 class Answered {
  public:
-  Answered(const BehaviorTree& tree, const DefaultReport& report)
-      : facts_(tree), report_(report) {}
+  Answered(const NormalTree& normal, const DefaultReport& report)
+      : normal_(normal), facts_(normal), report_(report) {
+    const auto& nodes = normal.tree().nodes;
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      if (is_leaf(nodes[n].type)) asking_[nodes[n].id].push_back(NodeId{n});
+    }
+    for (const StaleGuardReport& each : report.stale_guards) {
+      StaleGuardReport& stale = stale_guards_.emplace_back(each);
+      stale.action = normal.of(stale.action);
+      for (NodeId& guard : stale.guards) guard = normal.of(guard);
+    }
+  }
 
   std::vector<TreeFinding> find() {
-    for (std::uint32_t n = 0; n < report_.nodes.size(); ++n) look_at(NodeId{n});
+    const std::size_t count = facts_.tree().nodes.size();
+    for (std::uint32_t n = 0; n < count; ++n) look_at(NodeId{n});
     look_at_guards();
     look_at_left_running();
+    for (TreeFinding& each : found_) normal_.put_back(each);
     return std::move(found_);
   }
 
@@ -33,7 +48,7 @@ class Answered {
   using enum NodeQuestion;
 
   const Possibility& answer(NodeId node, NodeQuestion question) const {
-    return report_.nodes[index(node)]
+    return report_.nodes[index(normal_.acting(node))]
         .answers[static_cast<std::size_t>(question)];
   }
   bool never(NodeId node, NodeQuestion question) const {
@@ -50,7 +65,8 @@ class Answered {
     const Node& node = facts_.node(id);
     if (!may(id, Ticked)) {
       const bool is_news = node.is_root() || may(node.parent, Ticked);
-      if (never(id, Ticked) && is_news && !explained_.contains(id)) {
+      const bool is_told = explained_.contains(id) || is_safety_net(id);
+      if (never(id, Ticked) && is_news && !is_told) {
         add_dead(id);
       }
       return;
@@ -59,6 +75,7 @@ class Answered {
     if (is_silent && never(id, Running) && may(id, Skipped)) {
       return add_skipped(id);
     }
+    if (info_of(node.type).flow == Flow::OnFailure) look_at_vain(id);
     if (info_of(node.type).beside == Beside::Counted && never(id, Success) &&
         facts_.answers(id).success) {
       return add_parallel(id);
@@ -76,6 +93,56 @@ class Answered {
            .help = "look whether it asks for the right value"});
     }
     if (never(id, Success) && may(id, Failure)) add_never_true(id);
+  }
+
+  // The last child of a Switch, for values that no case has: the engine wants
+  // one, also where all cases are there.
+  bool is_safety_net(NodeId id) const {
+    if (facts_.is_root(id)) return false;
+    const Node& above = facts_.node(facts_.parent(id));
+    return above.type == NodeType::Switch && above.children.back() == id &&
+           std::ranges::all_of(above.children, [&](NodeId child) {
+             return child == id || may(child, Ticked);
+           });
+  }
+
+  // Fallback(condition, condition, AlwaysSuccess): whatever they answer, the
+  // same comes of it.
+  void look_at_vain(NodeId id) {
+    const Node& node = facts_.node(id);
+    if (facts_.answers(node.children.back()).failure || facts_.is_root(id) ||
+        !may(id, Success) || !only_asks(id)) {
+      return;
+    }
+    std::vector<NodeId> asked = facts_.leaves(id);
+    std::erase_if(asked, [&](NodeId leaf) {
+      return !facts_.answers(leaf).failure || !facts_.answers(leaf).success;
+    });
+    if (asked.empty()) return;
+    const NodeId last = node.children.back();
+    add({.code = "BT2213",
+         .node = id,
+         .others = asked,
+         .message = fmt::format("{} can never fail: what {} answer{} has no "
+                                "effect",
+                                told(id), facts_.told(asked),
+                                asked.size() == 1 ? "s" : ""),
+         .why = fmt::format("its last child, {} (line {}), never fails",
+                            told(last), facts_.node(last).span.line),
+         .help = fmt::format("take {} away, or ask nothing", told(last))});
+  }
+
+  // Nothing below it is done, written or waited for.
+  bool only_asks(NodeId id) const {
+    if (facts_.may_run(id)) return false;
+    for (NodeId at = id; at < facts_.end_of(id); at = NodeId{index(at) + 1}) {
+      const auto uses = facts_.uses_of(at);
+      const bool writes = std::ranges::any_of(
+          uses, [](const EntryUse* use) { return use->writes; });
+      const bool acts = facts_.is_deed(at) && !facts_.is_constant(at);
+      if (writes || acts) return false;
+    }
+    return true;
   }
 
   // With what stands behind it, which is never ticked then.
@@ -134,7 +201,12 @@ class Answered {
       }
     }
     std::vector<NodeId> others(dead.begin() + 1, dead.end());
-    if (before) others.push_back(*before);
+    if (before) {
+      if (const auto cause = undone_by(*before)) {
+        return add_undone(*before, *cause, std::move(dead));
+      }
+      others.push_back(*before);
+    }
     add({.code = "BT2201",
          .node = id,
          .others = std::move(others),
@@ -143,6 +215,31 @@ class Answered {
                        : fmt::format("{} never comes to it", told(node.parent)),
          .help = before ? "mend what stands before it, or delete it"
                         : "look what lets the tick pass, or delete it"});
+  }
+
+  // The last child of a Sequence, which fails after all that the others have
+  // done, whatever comes of it.
+  std::optional<NodeId> undone_by(NodeId sequence) const {
+    sequence = facts_.core(sequence);
+    const Node& node = facts_.node(sequence);
+    if (info_of(node.type).flow != Flow::OnSuccess) return std::nullopt;
+    const NodeId last = node.children.back();
+    const bool is_undone = facts_.is_constant(facts_.core(last)) &&
+                           never(last, Success) && may(last, Failure);
+    return is_undone ? std::optional(last) : std::nullopt;
+  }
+
+  void add_undone(NodeId sequence, NodeId cause, std::vector<NodeId> dead) {
+    std::string message = fmt::format("{} can never succeed: {} never ticked",
+                                      told(sequence), listed_with_verb(dead));
+    dead.push_back(cause);
+    add({.code = "BT2213",
+         .node = sequence,
+         .others = std::move(dead),
+         .message = std::move(message),
+         .why = fmt::format("its last child, {} (line {}), always fails",
+                            told(cause), facts_.node(cause).span.line),
+         .help = "move that into the branch that it should end"});
   }
 
   std::string why_not_behind(NodeId before, NodeId above) const {
@@ -239,14 +336,23 @@ class Answered {
 
   // --- Guards --------------------------------------------------------------
 
+  using ByGuard = std::map<NodeId, std::vector<const StaleGuardReport*>>;
+
   // By guard: what runs unguarded.
   void look_at_guards() {
-    std::map<NodeId, std::vector<const StaleGuardReport*>> by_guard;
-    for (const StaleGuardReport& report : report_.stale_guards) {
+    ByGuard by_guard;
+    ByGuard asked_once;
+    for (const StaleGuardReport& report : stale_guards_) {
       for (const NodeId guard : report.guards) {
-        if (matters(guard, report.action)) by_guard[guard].push_back(&report);
+        if (matters(guard, report.action)) {
+          by_guard[guard].push_back(&report);
+        } else if (may_matter(guard, report.action)) {
+          asked_once[guard].push_back(&report);
+        }
       }
     }
+    for (const auto& [guard, reports] : by_guard) asked_once.erase(guard);
+    ask_of_guards(asked_once);
     std::map<NodeId, TreeFinding*> by_sequence;
     found_.reserve(found_.size() + by_guard.size());
     for (const auto& [guard, reports] : by_guard) {
@@ -259,6 +365,110 @@ class Answered {
       found_.push_back(stale(guard, reports, above));
       by_sequence[above] = &found_.back();
     }
+  }
+
+  // One for what a node resumes, however many guards it has.
+  void ask_of_guards(const ByGuard& asked_once) {
+    std::map<NodeId, std::vector<NodeId>> below;
+    for (const auto& [guard, reports] : asked_once) {
+      below[fork_of(facts_.tree(), guard, reports[0]->action)->node].push_back(
+          guard);
+    }
+    for (const auto& [above, guards] : below) {
+      add(asked_once_below(above, guards, asked_once.at(guards[0])));
+    }
+  }
+
+  TreeFinding asked_once_below(
+      NodeId above, const std::vector<NodeId>& guards,
+      const std::vector<const StaleGuardReport*>& reports) const {
+    std::vector<NodeId> actions;
+    for (const StaleGuardReport* report : reports) {
+      actions.push_back(report->action);
+    }
+    std::vector<NodeId> others(guards.begin() + 1, guards.end());
+    others.insert(others.end(), actions.begin(), actions.end());
+    // What is told of the world may change with it; what a name tells is a
+    // guess, for the order alone.
+    const bool tells =
+        tidings_of(facts_.node(guards[0]).id) != Tidings::Neither;
+    return {.code = "BT2501",
+            .severity = Severity::Note,
+            .node = guards[0],
+            .others = std::move(others),
+            .message = fmt::format("{} asked once, before {}, which may last: "
+                                   "may the answer change meanwhile?",
+                                   listed_with_verb(guards), few(actions)),
+            .why = fmt::format("{} resumes its running child", told(above)),
+            .help = facts_.node(above).type == NodeType::IfThenElse
+                        ? "if so, make it a WhileDoElse, which asks in each "
+                          "tick"
+                        : "if so, put both under a reactive node",
+            .run = reports[0]->run,
+            .rank = (tells ? 25 : 30) + (is_asked_anew(above) ? 10 : 0)};
+  }
+
+  // "`a`, `b` and 3 more".
+  std::string few(const std::vector<NodeId>& nodes) const {
+    if (nodes.size() <= 3) return facts_.told(nodes);
+    return fmt::format("{}, {} and {} more", told(nodes[0]), told(nodes[1]),
+                       nodes.size() - 2);
+  }
+
+  // With the other answer something else would be done instead of the action,
+  // and no other node asks the same while that runs.
+  bool may_matter(NodeId guard, NodeId action) const {
+    const auto fork = fork_of(facts_.tree(), guard, action);
+    const Node& above = facts_.node(fork->node);
+    if (is_round_of_loop(fork->node)) return false;
+    const NodeId branch = child_with(fork->node, guard);
+    if (info_of(above.type).flow == Flow::OnFailure) {
+      // Fallback(Sequence(is it so, do this), do that); not, as of what is done
+      // only until it is so, Fallback(is it so already, make it so).
+      if (!facts_.has_deed(branch) || !leads(guard, branch)) return false;
+    } else if ((info_of(above.type).flow != Flow::OnSuccess &&
+                above.type != NodeType::IfThenElse) ||
+               !only_asks(branch) || !facts_.answers(branch).failure) {
+      return false;
+    }
+    const std::vector<NodeId>& alike = asking_.at(facts_.node(guard).id);
+    return std::ranges::none_of(alike, [&](NodeId other) {
+      ask_budget();
+      return other != guard &&
+             has_same_ports(facts_.node(other), facts_.node(guard)) &&
+             is_ticked_while(facts_.tree(), other, action);
+    });
+  }
+
+  // A loop comes past the guard again as soon as the action has ended.
+  bool is_round_of_loop(NodeId at) const {
+    while (!facts_.is_root(at)) {
+      at = facts_.parent(at);
+      if (facts_.node(at).children.size() != 1) return false;
+      const Flow flow = info_of(facts_.node(at).type).flow;
+      if (flow == Flow::UntilFailure || flow == Flow::Repeats) return true;
+    }
+    return false;
+  }
+
+  // The branch begins with it: nothing is done before it is asked.
+  bool leads(NodeId guard, NodeId branch) const {
+    for (NodeId at = branch; at < guard; at = NodeId{index(at) + 1}) {
+      if (facts_.is_deed(at)) return false;
+    }
+    return true;
+  }
+
+  static bool has_same_ports(const Node& one, const Node& other) {
+    return std::ranges::equal(
+        one.arguments, other.arguments, {},
+        [](const Argument& each) { return std::pair(each.key, each.value); },
+        [](const Argument& each) { return std::pair(each.key, each.value); });
+  }
+
+  NodeId child_with(NodeId above, NodeId node) const {
+    const auto& children = facts_.node(above).children;
+    return *std::prev(std::ranges::upper_bound(children, node));
   }
 
   // A condition that the branch needs all along, not one that lets it begin.
@@ -345,9 +555,9 @@ class Answered {
         children, [&](NodeId child) { return facts_.is_in(guard, child); });
     const auto rest = std::find_if_not(first, children.end(), asks);
     if (first == rest || rest == children.end()) return {};
-    const SourcePlace last = facts_.place(children.back());
+    const SourcePlace last = facts_.whole(children.back());
     const TreeEdit work =
-        WrapNodes{facts_.place(*rest), last, {facts_.type_word(above)}};
+        WrapNodes{facts_.whole(*rest), last, {facts_.type_word(above)}};
     const bool is_one = *rest == children.back();
     const bool is_btf = !is_engine(facts_.tree().profile);
     Repair repair;
@@ -360,39 +570,43 @@ class Answered {
     }
     NewNode reactive{"ReactiveSequence"};
     if (is_btf) reactive.attributes = {{"halt", "1"}};
-    repair.push_back(WrapNodes{facts_.place(*first), last, reactive});
+    repair.push_back(WrapNodes{facts_.whole(*first), last, reactive});
     if (!is_one) repair.push_back(work);
     return {repair};
   }
 
   void look_at_left_running() {
     for (const LeftRunningReport& left : report_.left_running) {
+      const NodeId leaf = normal_.of(left.leaf);
+      const NodeId above = normal_.of(left.above);
       add({.code = "BT2206",
            .severity = Severity::Note,
-           .node = left.leaf,
-           .others = {left.above},
+           .node = leaf,
+           .others = {above},
            .message = fmt::format(
-               "{} is left running when {} has {}", told(left.leaf),
-               told(left.above),
+               "{} is left running when {} has {}", told(leaf), told(above),
                left.decision == NodeStatus::Success ? "succeeded" : "failed"),
-           .why = fmt::format("{} does not halt it", told(left.above)),
+           .why = fmt::format("{} does not halt it", told(above)),
            .help = "give the node above `:halt 1`",
            .run = left.run,
-           .repairs = {{SetAttribute{facts_.place(left.above), "halt", "1"}}}});
+           .repairs = {{SetAttribute{facts_.place(above), "halt", "1"}}}});
     }
   }
 
+  const NormalTree& normal_;
   const TreeFacts facts_;
   const DefaultReport& report_;
+  std::vector<StaleGuardReport> stale_guards_;
   std::vector<TreeFinding> found_;
   std::set<NodeId> explained_;
+  std::unordered_map<std::string_view, std::vector<NodeId>> asking_;  // by ID
 };
 
 }  // namespace
 
-std::vector<TreeFinding> findings_in(const BehaviorTree& tree,
+std::vector<TreeFinding> findings_in(const NormalTree& normal,
                                      const DefaultReport& report) {
-  return Answered(tree, report).find();
+  return Answered(normal, report).find();
 }
 
 }  // namespace btcheck

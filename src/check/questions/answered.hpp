@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "check/findings/normal_tree.hpp"
 #include "check/findings/suspicion.hpp"
 #include "check/questions/defaults.hpp"
 #include "model/tree/tree.hpp"
@@ -13,7 +14,7 @@ namespace btcheck {
 
 // Nodes that can never be ticked or never answer so, told once for each cause;
 // guards that go stale, by guard; what is left running.
-std::vector<TreeFinding> findings_in(const BehaviorTree& tree,
+std::vector<TreeFinding> findings_in(const NormalTree& normal,
                                      const DefaultReport& report);
 
 }  // namespace btcheck

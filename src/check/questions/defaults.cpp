@@ -116,7 +116,8 @@ DefaultReport check_defaults(const BehaviorTree& tree,
                              unsigned threads) {
   DefaultReport report;
   report.reduction = reduction;
-  std::vector<Suspicion> suspicions = suspicions_of(tree);
+  const NormalTree normal(tree);
+  std::vector<Suspicion> suspicions = suspicions_of(normal);
   // Behind those of the suspicions: each guarded action, ticked while it runs.
   const std::vector<NodeId> guarded = guarded_actions(tree, system.network());
   std::vector<Sighting> sightings = sightings_of(suspicions);
@@ -159,7 +160,7 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   answer_for_tree(questions, result.is_complete,
                   network.ticks != TickSemantics::None, reporter, evidence,
                   report);
-  const bool runs_on = is_meant_to_run_on(tree);
+  const bool runs_on = is_meant_to_run_on(normal.tree());
   for (TreeReport& answer : report.tree) {
     answer.is_meant =
         runs_on && answer.question <= TreeQuestion::CanAlwaysSucceed;
@@ -174,7 +175,7 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   report_guards(tree, network, guarded, sightings.size() - guarded.size(),
                 evidence, report);
   report_left_running(questions.left_running, reporter, report);
-  report.findings = findings_in(tree, report);
+  report.findings = findings_in(normal, report);
   Judge judge(evidence, result.is_complete);
   for (Suspicion& each : suspicions) {
     if (judge.confirm(each)) report.findings.push_back(std::move(each.finding));

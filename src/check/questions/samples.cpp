@@ -56,7 +56,7 @@ std::string Samples::told(std::vector<Suspicion> suspicions) const {
   }
   Judge judge(evidence_, false);
   for (Suspicion& each : suspicions) {
-    if (!judge.confirm(each)) continue;
+    if (is_question(each.finding) || !judge.confirm(each)) continue;
     lines += fmt::format("seen so far: {}: {}\n", each.finding.code,
                          each.finding.message);
   }

@@ -48,7 +48,7 @@ Objection objection_to(const CodeRow& row) {
     return said("an error", "where there is one nothing can be checked");
   }
   return said("not about a tree or a rule",
-              "levels are for BT22xx, BT23xx and what readers warn of");
+              "levels are for BT22xx, BT23xx, BT25xx and what readers warn of");
 }
 
 }  // namespace
@@ -73,8 +73,8 @@ const CodeRow* code_named(std::string_view code) {
 }
 
 bool has_level(const CodeRow& row) {
-  constexpr std::string_view kFamilies[] = {"BT10", "BT11", "BT12",
-                                            "BT16", "BT22", "BT23"};
+  constexpr std::string_view kFamilies[] = {"BT10", "BT11", "BT12", "BT16",
+                                            "BT22", "BT23", "BT25"};
   constexpr std::string_view kMission = "BT21";  // as a whole
   if (row.code.starts_with(kMission)) return true;
   return row.severity != Severity::Error &&

@@ -400,7 +400,8 @@ constexpr CodeRow kCommandCodes[] = {
     {.code = "BT1510",
      .summary = "a level for what has none",
      .description =
-         "Levels are for what is found in a tree (BT22xx, BT23xx) and what its "
+         "Levels are for what is found in a tree (BT22xx, BT23xx, BT25xx) and "
+         "what its "
          "readers warn of. An error of reading leaves nothing to check, and "
          "the verdict of a rule is what it is: neither has a level.",
      .help = "Write a code that `btcheck explain` lists, or `warnings`.",

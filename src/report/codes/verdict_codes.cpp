@@ -270,6 +270,23 @@ constexpr CodeRow kVerdicts[] = {
   <Fetch _skipIf="tool == 'driver'"/>
 </Sequence>)",
                  .models = R"(<Action ID="Fetch"/>)"}},
+    {.code = "BT2213",
+     .name = "OneAnswer",
+     .summary = "A node has one answer, where its parent waits for the other.",
+     .description =
+         "A child that always fails ends a Sequence whatever was done before "
+         "it; one that never fails makes of a Fallback a question that "
+         "nothing comes of.",
+     .help = "Move that child to where it is meant, or take it away.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<Sequence>
+  <Fallback>
+    <IsHeld/>
+    <AlwaysSuccess/>
+  </Fallback>
+  <Lift/>
+</Sequence>)",
+                 .models = R"(<Condition ID="IsHeld"/><Action ID="Lift"/>)"}},
     {.code = "BT2214",
      .name = "CutOff",
      .summary = "A Parallel halts a task that has not ended.",
@@ -339,6 +356,101 @@ constexpr CodeRow kVerdicts[] = {
                  .models = R"(<Condition ID="IsNear"/>
 <Action ID="Detect"><output_port name="pose" type="std::string"/></Action>
 <Action ID="Reach"><input_port name="pose" type="std::string"/></Action>)"}},
+    {.code = "BT2501",
+     .name = "AskedOnce",
+     .summary = "A condition is asked once, before an action that may last.",
+     .description = "Its node resumes the action and does not come past the "
+                    "condition meanwhile. That is right where the answer "
+                    "cannot change, or does not matter any more.",
+     .help = "If it may change, put both under a reactive node.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<Sequence>
+  <IsNurseThere/>
+  <Drive/>
+</Sequence>)",
+                 .models =
+                     R"(<Condition ID="IsNurseThere"/><Action ID="Drive"/>)"}},
+    {.code = "BT2502",
+     .name = "MayBeCutOff",
+     .summary = "A Parallel halts one child when another one has ended.",
+     .description = "The first of its children to fail, or as many successes "
+                    "as it asks for, end what the others do.",
+     .help = "Ask for all children, or put a ForceSuccess around the one that "
+             "may fail without harm.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<Parallel>
+  <Sequence>
+    <Brush/>
+    <Rinse/>
+  </Sequence>
+  <Report/>
+</Parallel>)",
+                 .models = R"(<Action ID="Brush"/><Action ID="Rinse"/>
+<Action ID="Report"/>)"}},
+    {.code = "BT2503",
+     .name = "Forgiven",
+     .summary = "A failure is turned into success, and the mission goes on.",
+     .description = "What stands around it, such as a retry or a recovery, "
+                    "never hears of the failure.",
+     .help = "Take the ForceSuccess away, if the failure matters.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<RetryUntilSuccessful num_attempts="3">
+  <ForceSuccess>
+    <Follow/>
+  </ForceSuccess>
+</RetryUntilSuccessful>)",
+                 .models = R"(<Action ID="Follow"/>)"}},
+    {.code = "BT2504",
+     .name = "LimitDecides",
+     .summary = "A limit decides in each tick between two that last.",
+     .description = "A number that is measured while either runs crosses the "
+                    "limit, and the other one begins: near the limit neither "
+                    "gets on.",
+     .help = "Let the first go on up to a second limit.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<ReactiveSequence>
+  <ReadBattery level="{level}"/>
+  <ReactiveFallback>
+    <ReactiveSequence>
+      <ScriptCondition code="level &lt; 20"/>
+      <Charge/>
+    </ReactiveSequence>
+    <Patrol/>
+  </ReactiveFallback>
+</ReactiveSequence>)",
+                 .models = R"(<Condition ID="ReadBattery">
+<output_port name="level" type="int"/></Condition>
+<Action ID="Charge"/><Action ID="Patrol"/>)"}},
+    {.code = "BT2505",
+     .name = "NoTimeInLoop",
+     .summary = "Nothing in a loop without end has to take time.",
+     .description = "Ticked by tickOnce(), such a loop wakes the tree for its "
+                    "next round, and the call never returns.",
+     .help = "Put a Sleep into the loop, or say by a contract which leaf takes "
+             "time.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<Repeat num_cycles="-1">
+  <Publish/>
+</Repeat>)",
+                 .models = R"(<Action ID="Publish"/>)"}},
+    {.code = "BT2506",
+     .name = "CalledOff",
+     .summary = "An answer calls work off, and counts as its success.",
+     .description = "A ReactiveFallback halts what runs when a child before it "
+                    "succeeds, and succeeds itself: what follows goes on as if "
+                    "the work had been done.",
+     .help = "Where that is not meant, let the node fail then: the opposite "
+             "condition under a ReactiveSequence.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<Sequence>
+  <ReactiveFallback>
+    <IsNurseThere/>
+    <Drive/>
+  </ReactiveFallback>
+  <Unload/>
+</Sequence>)",
+                 .models = R"(<Condition ID="IsNurseThere"/>
+<Action ID="Drive"/><Action ID="Unload"/>)"}},
     {.code = "BT9002",
      .name = "InternalError",
      .summary = "An internal error of btcheck.",

@@ -33,7 +33,8 @@ std::string part_of_path(const BehaviorTree& tree, NodeId id) {
 }
 
 std::string sentence(std::string text) {
-  if (!text.empty() && !text.ends_with('.')) text += '.';
+  const bool has_end = text.ends_with('.') || text.ends_with('?');
+  if (!text.empty() && !has_end) text += '.';
   return text;
 }
 

@@ -277,7 +277,7 @@ std::string fingerprint_of(const Report& report, const Finding& finding) {
 }
 
 bool is_of_tree(const Finding& finding) {
-  return finding.code.starts_with("BT22");
+  return finding.code.starts_with("BT22") || finding.code.starts_with("BT25");
 }
 
 std::string place_text(const Place& place) {

@@ -253,14 +253,23 @@ std::string line_in(const CheckResult& result, const std::string& file,
   return {};
 }
 
+// "3 findings, 2 questions".
+std::string counted_findings(const CheckedFile& file, bool is_whole) {
+  const auto asked = static_cast<std::size_t>(
+      std::ranges::count_if(file.findings, is_question));
+  const std::size_t found = file.findings.size() - asked;
+  std::string text = found > 0  ? counted(found, "finding", "findings")
+                     : is_whole ? "no findings"
+                                : "nothing found so far";
+  if (asked > 0) text += ", " + counted(asked, "question", "questions");
+  return text;
+}
+
 // "3 findings; 39 nodes, 132,433 states, all runs".
 std::string summary_text(const CheckResult& result, const CheckedFile& file) {
   const DefaultReport& report = *file.defaults;
   const bool is_whole = report.stopped == StopReason::None;
-  return fmt::format("\n{}{}; {}, {}, {}\n",
-                     file.findings.empty()
-                         ? is_whole ? "no findings" : "nothing found so far"
-                         : counted(file.findings.size(), "finding", "findings"),
+  return fmt::format("\n{}{}; {}, {}, {}\n", counted_findings(file, is_whole),
                      judged_text(count_of(result.judged)),
                      counted(result.tree->nodes.size(), "node", "nodes"),
                      grouped(report.progress.states) +
@@ -367,13 +376,38 @@ std::string finding_text(const CheckResult& result, const CheckedFile& file,
                            shown, layout.width);
 }
 
+// A line for each of the first, with what else is asked; with every step all of
+// them, as findings are told.
+std::string questions_text(const CheckResult& result, const CheckedFile& file,
+                           Layout layout) {
+  constexpr std::size_t kMost = 5;
+  std::string text;
+  std::size_t count = 0;
+  for (const TreeFinding& finding : file.findings) {
+    if (!is_question(finding)) continue;
+    if (layout.detail == Detail::EveryStep) {
+      text += finding_text(result, file, finding, layout);
+    } else if (++count <= kMost) {
+      const std::string begin = fmt::format(
+          "  {}  {}  ", finding.code, line_of(*result.tree, finding.node));
+      text +=
+          begin + wrapped(finding.message, begin.size(), layout.width) + "\n";
+    }
+  }
+  if (count > kMost) text += fmt::format("  and {} more: -v\n", count - kMost);
+  if (text.empty() || layout.detail == Detail::EveryStep) return text;
+  return "\nQuestions that you can answer (-v shows the run)\n" + text;
+}
+
 std::string findings_text(const CheckResult& result, const CheckedFile& file,
                           Layout layout) {
   std::string text;
   for (const TreeFinding& finding : file.findings) {
-    text += finding_text(result, file, finding, layout);
+    if (!is_question(finding)) {
+      text += finding_text(result, file, finding, layout);
+    }
   }
-  return text;
+  return text + questions_text(result, file, layout);
 }
 
 std::string beside_rules_text(const CheckResult& result,
@@ -382,6 +416,7 @@ std::string beside_rules_text(const CheckResult& result,
     return findings_text(result, file, layout);
   std::string text;
   for (const TreeFinding& finding : file.findings) {
+    if (is_question(finding)) continue;
     text += fmt::format("{}[{}] {}: {}\n", severity_name(finding.severity),
                         finding.code, line_of(*result.tree, finding.node),
                         finding.message);
