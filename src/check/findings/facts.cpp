@@ -84,8 +84,8 @@ bool TreeFacts::is_constant(NodeId id) const {
   return node(id).id == "AlwaysSuccess" || node(id).id == "AlwaysFailure";
 }
 
-bool TreeFacts::has_deed(NodeId node) const {
-  return deeds_before_[index(node)] < deeds_before_[end_[index(node)]];
+std::size_t TreeFacts::deeds(NodeId node) const {
+  return deeds_before_[end_[index(node)]] - deeds_before_[index(node)];
 }
 
 NodeId TreeFacts::core(NodeId id) const {
@@ -129,6 +129,12 @@ std::string TreeFacts::told(const std::vector<NodeId>& nodes) const {
   std::vector<std::string> names;
   for (const NodeId each : nodes) names.push_back(told(each));
   return enumerated(names);
+}
+
+std::string TreeFacts::few(const std::vector<NodeId>& nodes) const {
+  if (nodes.size() <= 3) return told(nodes);
+  return fmt::format("{}, {} and {} more", told(nodes[0]), told(nodes[1]),
+                     nodes.size() - 2);
 }
 
 SourcePlace TreeFacts::place(NodeId id) const {

@@ -40,7 +40,8 @@ class TreeFacts {
   bool is_condition(NodeId node) const;
   // A leaf that does something: no condition, no script, no wait.
   bool is_deed(NodeId node) const;
-  bool has_deed(NodeId node) const;
+  std::size_t deeds(NodeId node) const;  // how many it has below it
+  bool has_deed(NodeId node) const { return deeds(node) > 0; }
   // AlwaysSuccess, AlwaysFailure: all that it has is its answer.
   bool is_constant(NodeId node) const;
   // Through SubTrees and decorators that pass their child's answer on.
@@ -57,6 +58,8 @@ class TreeFacts {
 
   // "`a`, `b` and `c`".
   std::string told(const std::vector<NodeId>& nodes) const;
+  // The same of many: "`a`, `b` and 7 more".
+  std::string few(const std::vector<NodeId>& nodes) const;
 
   const std::vector<EntryUse>& uses() const { return tree_.entry_uses; }
   // Those of a node, and those of an entry, in their order.

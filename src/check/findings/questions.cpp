@@ -35,12 +35,6 @@ class OpenQuestions : Look {
   }
 
  private:
-  std::size_t deeds_in(NodeId id) const {
-    const std::vector<NodeId> leaves = facts_.leaves(id);
-    return static_cast<std::size_t>(std::ranges::count_if(
-        leaves, [&](NodeId leaf) { return facts_.is_deed(leaf); }));
-  }
-
   // --- A child of a Parallel halts another one ------------------------------
 
   // Does something, and ends.
@@ -68,16 +62,24 @@ class OpenQuestions : Look {
   // failure ends no more than was to be done by its own side is no loss.
   void ask_cut_off_by(NodeId id, const Node& node, LocationRole answer) {
     const bool succeeds = answer == LocationRole::Success;
+    std::size_t most = 0;
+    for (const NodeId child : node.children) {
+      if (is_work(child) && facts_.may_run(child)) {
+        most = std::max(most, facts_.deeds(child));
+      }
+    }
     for (const NodeId ending : node.children) {
       const bool may_end =
           may_answer(ending, answer) &&
           (is_work(ending) || (succeeds && !is_endless(facts_.node(ending))));
-      if (!may_end) continue;
+      const std::size_t least = succeeds ? 0 : facts_.deeds(ending);
+      if (!may_end || most <= least) continue;
       std::vector<NodeId> halted;
       for (const NodeId child : node.children) {
+        ask_budget();
         const bool is_lost = child != ending && is_work(child) &&
                              facts_.may_run(child) &&
-                             (succeeds || deeds_in(child) > deeds_in(ending));
+                             facts_.deeds(child) > least;
         if (is_lost) halted.push_back(child);
       }
       if (halted.empty()) continue;
@@ -88,7 +90,7 @@ class OpenQuestions : Look {
            .others = {ending},
            .message =
                fmt::format("{} halts {} when {} has {}: may that be cut off?",
-                           told(id), facts_.told(halted), told(ending),
+                           told(id), facts_.few(halted), told(ending),
                            succeeds ? "succeeded" : "failed"),
            .why = succeeds ? "one success is enough for it"
                            : "it fails with the first of its children",

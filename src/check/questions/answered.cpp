@@ -25,8 +25,18 @@ class Answered {
   Answered(const NormalTree& normal, const DefaultReport& report)
       : normal_(normal), facts_(normal), report_(report) {
     const auto& nodes = normal.tree().nodes;
+    std::vector<bool> is_beside(nodes.size());
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-      if (is_leaf(nodes[n].type)) asking_[nodes[n].id].push_back(NodeId{n});
+      const Node& node = nodes[n];
+      if (!node.is_root()) {
+        const Node& above = nodes[index(node.parent)];
+        is_beside[n] = is_beside[index(node.parent)] ||
+                       (above.children.size() > 1 &&
+                        info_of(above.type).beside != Beside::None);
+      }
+      if (is_leaf(node.type) && is_beside[n]) {
+        asking_[node.id].push_back(NodeId{n});
+      }
     }
     for (const StaleGuardReport& each : report.stale_guards) {
       StaleGuardReport& stale = stale_guards_.emplace_back(each);
@@ -162,6 +172,9 @@ class Answered {
          .repairs = spelt_alike(facts_, id, std::nullopt)});
   }
 
+  std::string few_with_verb(const std::vector<NodeId>& nodes) const {
+    return facts_.few(nodes) + (nodes.size() == 1 ? " is" : " are");
+  }
   std::string listed_with_verb(const std::vector<NodeId>& nodes) const {
     return facts_.told(nodes) + (nodes.size() == 1 ? " is" : " are");
   }
@@ -398,7 +411,7 @@ class Answered {
             .others = std::move(others),
             .message = fmt::format("{} asked once, before {}, which may last: "
                                    "may the answer change meanwhile?",
-                                   listed_with_verb(guards), few(actions)),
+                                   few_with_verb(guards), facts_.few(actions)),
             .why = fmt::format("{} resumes its running child", told(above)),
             .help = facts_.node(above).type == NodeType::IfThenElse
                         ? "if so, make it a WhileDoElse, which asks in each "
@@ -406,13 +419,6 @@ class Answered {
                         : "if so, put both under a reactive node",
             .run = reports[0]->run,
             .rank = (tells ? 25 : 30) + (is_asked_anew(above) ? 10 : 0)};
-  }
-
-  // "`a`, `b` and 3 more".
-  std::string few(const std::vector<NodeId>& nodes) const {
-    if (nodes.size() <= 3) return facts_.told(nodes);
-    return fmt::format("{}, {} and {} more", told(nodes[0]), told(nodes[1]),
-                       nodes.size() - 2);
   }
 
   // With the other answer something else would be done instead of the action,
@@ -431,8 +437,9 @@ class Answered {
                !only_asks(branch) || !facts_.answers(branch).failure) {
       return false;
     }
-    const std::vector<NodeId>& alike = asking_.at(facts_.node(guard).id);
-    return std::ranges::none_of(alike, [&](NodeId other) {
+    const auto alike = asking_.find(facts_.node(guard).id);
+    if (alike == asking_.end()) return true;
+    return std::ranges::none_of(alike->second, [&](NodeId other) {
       ask_budget();
       return other != guard &&
              has_same_ports(facts_.node(other), facts_.node(guard)) &&
@@ -508,15 +515,10 @@ class Answered {
                     const std::vector<const StaleGuardReport*>& reports,
                     NodeId above) const {
     std::vector<NodeId> actions;
-    std::vector<std::string> names;
     for (const StaleGuardReport* report : reports) {
       actions.push_back(report->action);
-      names.push_back(told(report->action));
     }
-    if (names.size() > 3) {
-      names.resize(2);
-      names.push_back(fmt::format("{} more", actions.size() - 2));
-    }
+    const std::string names = facts_.few(actions);
     return {
         .code = "BT2205",
         .severity = is_engine(facts_.tree().profile) ? Severity::Warning
@@ -525,7 +527,7 @@ class Answered {
         .others = std::move(actions),
         .message =
             fmt::format("{} is not asked again while {} run{}", told(guard),
-                        enumerated(names), reports.size() == 1 ? "s" : ""),
+                        names, reports.size() == 1 ? "s" : ""),
         .why = fmt::format("{} resumes its running child", told(above)),
         .help = facts_.node(above).type == NodeType::IfThenElse
                     ? "make it a WhileDoElse, which asks in each tick"
@@ -599,7 +601,8 @@ class Answered {
   std::vector<StaleGuardReport> stale_guards_;
   std::vector<TreeFinding> found_;
   std::set<NodeId> explained_;
-  std::unordered_map<std::string_view, std::vector<NodeId>> asking_;  // by ID
+  // By ID, the leaves that may be ticked while another one runs.
+  std::unordered_map<std::string_view, std::vector<NodeId>> asking_;
 };
 
 }  // namespace
