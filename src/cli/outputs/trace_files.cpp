@@ -91,7 +91,7 @@ class TraceWriter {
     std::size_t count = 0;
     for (std::size_t i = 0; i < names.size(); ++i) {
       const auto& run = file.findings[i].run;
-      if (run && ++count > kMostFindings) {
+      if (run && !names[i].empty() && ++count > kMostFindings) {
         ++written_.too_many;
       } else {
         add(file, run, names[i]);

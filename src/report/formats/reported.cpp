@@ -213,7 +213,7 @@ std::vector<std::string> trace_names(const BehaviorTree& tree,
   std::vector<std::string> names;
   for (const TreeFinding& found : findings) {
     std::string& name = names.emplace_back();
-    if (!found.run) continue;
+    if (!found.run || is_question(found)) continue;
     name = fmt::format("{}-{}", found.code,
                        plain_word(stable_name(tree.node(found.node)), "-")
                            .substr(0, kMostOfName));

@@ -195,7 +195,8 @@ ToldRun told_run(const BehaviorTree& tree, const Network& network,
 
 // The names that runs are kept by: "BT2104" for an answer of the default report
 // that nobody wants, "BT2208-RecoveryActions" for a finding at that node, and
-// "BT2208-RecoveryActions-2" for the second; "" where there is no run.
+// "BT2208-RecoveryActions-2" for the second; "" where there is no run, and of a
+// question: -v shows that.
 std::string trace_name(const TreeReport& answer);
 std::vector<std::string> trace_names(const BehaviorTree& tree,
                                      const std::vector<TreeFinding>& findings);

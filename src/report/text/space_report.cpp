@@ -22,7 +22,7 @@ std::string row(std::string_view name, const std::string& figure,
   return fmt::format("  {:<17} {:>15}{}\n", name, figure, unit);
 }
 
-std::string_view advice_for(const Node& node) {
+std::string advice_for(const Node& node) {
   if (node.type == NodeType::RateController) {
     return "its timer counts ticks: raise :hz, or scale all times down";
   }
@@ -49,7 +49,7 @@ std::string_view advice_for(const Node& node) {
   return "it remembers where it was and what it answered";
 }
 
-std::string_view advice_for(const BehaviorTree& tree, StateVariableId id) {
+std::string advice_for(const BehaviorTree& tree, StateVariableId id) {
   const StateVariable& variable = tree.variable(id);
   if (moves_freely(tree, id)) {
     return "it moves at any instant: :moves sampled, if only the tree looks";
