@@ -31,6 +31,19 @@ TEST_CASE("the largest parts are named with a way to make them smaller") {
         "tree looks\n");
 }
 
+TEST_CASE("a Parallel is told with the option that helps") {
+  const auto read = read_btf(
+      "t.btf",
+      "(BehaviorTree :name t (ParallelAll (Action :ID a) (Action :ID b)))");
+  REQUIRE(read.value);
+  const std::vector<Contribution> parts = {{NodeId{1}, std::nullopt, 4.0}};
+  CHECK(contribution_text(*read.value, parts) ==
+        "What multiplies the states, and what would help\n"
+        "  x    4.0  ParallelAll1 (line 1)\n"
+        "             its children interleave; --reduce full explores one "
+        "order\n");
+}
+
 TEST_CASE("parts that hardly matter are not told") {
   const auto read =
       read_btf("t.btf", "(BehaviorTree :name t (Action :ID fly))");
