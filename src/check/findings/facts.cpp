@@ -120,6 +120,11 @@ std::size_t TreeFacts::place_of(NodeId id) const {
       children.begin());
 }
 
+NodeId TreeFacts::child_with(NodeId above, NodeId node) const {
+  const auto& children = tree_.node(above).children;
+  return *std::prev(std::ranges::upper_bound(children, node));
+}
+
 std::string TreeFacts::told(NodeId node) const {
   if (names_.empty()) names_ = short_names(normal_.written());
   return "`" + names_[index(normal_.shown(node))] + "`";

@@ -50,6 +50,8 @@ class TreeFacts {
   bool is_relied_on(NodeId node) const;
   // Which child of its parent it is, from 0.
   std::size_t place_of(NodeId node) const;
+  // The child of a node that another one is, or stands in.
+  NodeId child_with(NodeId above, NodeId node) const;
   NodeId parent(NodeId node) const { return tree_.node(node).parent; }
   bool is_root(NodeId node) const { return tree_.node(node).is_root(); }
 

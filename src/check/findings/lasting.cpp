@@ -86,12 +86,6 @@ class Lasting : Look {
     return undoer(facts_.end_of(child), facts_.end_of(facts_.parent(child)));
   }
 
-  // The child of a node that another one is, or stands in.
-  NodeId child_with(NodeId above, NodeId node) const {
-    const auto& children = facts_.node(above).children;
-    return *std::prev(std::ranges::upper_bound(children, node));
-  }
-
   // --- Begun and not ended ---------------------------------------------------
 
   // A way on which `begun` succeeds, what follows it fails, and the mission
@@ -111,7 +105,7 @@ class Lasting : Look {
       }
       const std::optional<NodeId> failing = next_failing_[index(at)];
       if (const auto ended = first_behind(at, undoer)) {
-        const NodeId child = child_with(parent, *ended);
+        const NodeId child = facts_.child_with(parent, *ended);
         if (!failing || *failing >= child || is_undone_above(parent, undoer)) {
           return std::nullopt;
         }
@@ -157,7 +151,8 @@ class Lasting : Look {
     });
     if (!way) return;
     const NodeId ended = way->ended;
-    if (is_done_again_behind(id, child_with(way->sequence, ended))) return;
+    if (is_done_again_behind(id, facts_.child_with(way->sequence, ended)))
+      return;
     found_.push_back(
         {.finding = {.code = "BT2206",
                      .node = id,
@@ -225,7 +220,7 @@ class Lasting : Look {
 
   // Sequence(begin, Fallback(act, ForceFailure(end)), end).
   std::vector<Repair> ended_on_failure(const Way& way) const {
-    const NodeId whole = child_with(way.sequence, way.ended);
+    const NodeId whole = facts_.child_with(way.sequence, way.ended);
     if (facts_.leaves(whole).size() != 1) return {};
     const auto& children = facts_.node(way.sequence).children;
     const SourcePlace first = place(way.failing);
@@ -312,7 +307,7 @@ class Lasting : Look {
   std::vector<Repair> freed_on_failure(const Way& way,
                                        std::uint32_t entry) const {
     if (facts_.node(way.sequence).script(ScriptTime::OnFailure)) return {};
-    const NodeId whole = child_with(way.sequence, way.ended);
+    const NodeId whole = facts_.child_with(way.sequence, way.ended);
     for (const EntryUse* use : facts_.uses_of_entry(entry)) {
       const bool frees = use->writes && !use->literal.empty() &&
                          facts_.is_in(use->node, whole);

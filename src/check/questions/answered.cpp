@@ -172,9 +172,6 @@ class Answered {
          .repairs = spelt_alike(facts_, id, std::nullopt)});
   }
 
-  std::string few_with_verb(const std::vector<NodeId>& nodes) const {
-    return facts_.few(nodes) + (nodes.size() == 1 ? " is" : " are");
-  }
   std::string listed_with_verb(const std::vector<NodeId>& nodes) const {
     return facts_.told(nodes) + (nodes.size() == 1 ? " is" : " are");
   }
@@ -392,13 +389,19 @@ class Answered {
     }
   }
 
-  TreeFinding asked_once_below(
-      NodeId above, const std::vector<NodeId>& guards,
-      const std::vector<const StaleGuardReport*>& reports) const {
+  static std::vector<NodeId> actions_of(
+      const std::vector<const StaleGuardReport*>& reports) {
     std::vector<NodeId> actions;
     for (const StaleGuardReport* report : reports) {
       actions.push_back(report->action);
     }
+    return actions;
+  }
+
+  TreeFinding asked_once_below(
+      NodeId above, const std::vector<NodeId>& guards,
+      const std::vector<const StaleGuardReport*>& reports) const {
+    const std::vector<NodeId> actions = actions_of(reports);
     std::vector<NodeId> others(guards.begin() + 1, guards.end());
     others.insert(others.end(), actions.begin(), actions.end());
     // What is told of the world may change with it; what a name tells is a
@@ -409,9 +412,11 @@ class Answered {
             .severity = Severity::Note,
             .node = guards[0],
             .others = std::move(others),
-            .message = fmt::format("{} asked once, before {}, which may last: "
-                                   "may the answer change meanwhile?",
-                                   few_with_verb(guards), facts_.few(actions)),
+            .message = fmt::format(
+                "{} asked once, before {}, which may last: "
+                "may the answer change meanwhile?",
+                facts_.few(guards) + (guards.size() == 1 ? " is" : " are"),
+                facts_.few(actions)),
             .why = fmt::format("{} resumes its running child", told(above)),
             .help = facts_.node(above).type == NodeType::IfThenElse
                         ? "if so, make it a WhileDoElse, which asks in each "
@@ -427,7 +432,7 @@ class Answered {
     const auto fork = fork_of(facts_.tree(), guard, action);
     const Node& above = facts_.node(fork->node);
     if (is_round_of_loop(fork->node)) return false;
-    const NodeId branch = child_with(fork->node, guard);
+    const NodeId branch = facts_.child_with(fork->node, guard);
     if (info_of(above.type).flow == Flow::OnFailure) {
       // Fallback(Sequence(is it so, do this), do that); not, as of what is done
       // only until it is so, Fallback(is it so already, make it so).
@@ -473,11 +478,6 @@ class Answered {
         [](const Argument& each) { return std::pair(each.key, each.value); });
   }
 
-  NodeId child_with(NodeId above, NodeId node) const {
-    const auto& children = facts_.node(above).children;
-    return *std::prev(std::ranges::upper_bound(children, node));
-  }
-
   // A condition that the branch needs all along, not one that lets it begin.
   bool matters(NodeId guard, NodeId action) const {
     const Node& node = facts_.node(guard);
@@ -514,10 +514,7 @@ class Answered {
   TreeFinding stale(NodeId guard,
                     const std::vector<const StaleGuardReport*>& reports,
                     NodeId above) const {
-    std::vector<NodeId> actions;
-    for (const StaleGuardReport* report : reports) {
-      actions.push_back(report->action);
-    }
+    std::vector<NodeId> actions = actions_of(reports);
     const std::string names = facts_.few(actions);
     return {
         .code = "BT2205",
