@@ -237,6 +237,9 @@ class FormReader {
     rule.name = std::move(draft->name);
     rule.span = draft->span;
     if (draft->has_returns) rule.results = std::move(draft->results);
+    rule.has_behavior =
+        draft->has_behavior() || draft->meaning == LeafMeaning{};
+    rule.meaning = std::move(draft->meaning);
     rule.memory = draft->memory;
     rule.duration = draft->duration;
     if (draft->requirement) {

@@ -421,5 +421,35 @@ TEST_CASE("what scripts cannot say is refused where it stands") {
   CHECK(codes_for("(defaction Drive :on-success ((:= x)))") == "BT1009 1:32");
 }
 
+TEST_CASE("what a leaf means is put together from all that is said of it") {
+  const auto read = contracted(
+      kTree, {"(defaction Drive :returns (success running) :may-be-lost no)",
+              "(defaction \"Move::*/back\" :may-be-lost :may-stay)"
+              "(defaction Drive :idempotent :undone-by (Park \"Main/*\"))"
+              "(defcondition IsFree :asked-once no :holds-while Drive)"});
+  CHECK(read.shown == "");
+  const LeafContract& back = read.leaf("Move::8/back");
+  CHECK(!back.may_fail);
+  CHECK(back.meaning.may_be_lost == false);
+  CHECK(back.meaning.may_stay == true);
+  CHECK(back.meaning.idempotent == true);
+  CHECK(!back.meaning.tells_only);
+  CHECK(back.meaning.undone_by == std::vector<std::string>{"Park", "Main/*"});
+  CHECK(!read.leaf("first/there").meaning.may_stay);
+  const LeafContract& free = read.leaf("first/IsFree::5");
+  CHECK(free.meaning.asked_once == false);
+  CHECK(free.meaning.holds_while == std::vector<std::string>{"Drive"});
+  // It does not say what a leaf answers, nor that nothing else may say it.
+  CHECK(contracted(kTree, {"(defaction Drive :may-be-lost)",
+                           "(defaction Drive :returns (success))"})
+            .shown == "");
+  CHECK(codes_for("(defaction Dive :may-be-lost)") == "BT1021 1:12");
+  CHECK(codes_for("(defaction Unheard :may-be-lost)") == "");
+  CHECK(codes_for("(defaction Drive :asked-once)") == "BT1005 1:18");
+  CHECK(codes_for("(defcondition IsFree :may-stay)") == "BT1005 1:22");
+  CHECK(codes_for("(defaction Drive :may-stay perhaps)") == "BT1020 1:28");
+  CHECK(codes_for("(defaction Drive :undone-by ((a)))") == "BT1020 1:30");
+}
+
 }  // namespace
 }  // namespace btcheck::btcpp_leaf_rules_test

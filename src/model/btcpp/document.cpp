@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -543,6 +544,26 @@ class DocumentReader {
     if (!leaves.empty()) note_unknown_leaves(leaves);
   }
 
+  // Other engines and textbooks have other names for the same.
+  static std::string help_for_unknown(std::string_view id) {
+    using Name = std::pair<std::string_view, std::string_view>;
+    constexpr std::array<Name, 8> kElsewhere = {
+        {{"Negation", "Inverter"},
+         {"Not", "Inverter"},
+         {"Negate", "Inverter"},
+         {"Selector", "Fallback"},
+         {"Priority", "Fallback"},
+         {"Succeeder", "ForceSuccess"},
+         {"Failer", "ForceFailure"},
+         {"RepeatUntilFailure", "KeepRunningUntilFailure"}}};
+    const auto found = std::ranges::find(kElsewhere, id, &Name::first);
+    if (found == kElsewhere.end()) return "describe it in `<TreeNodesModel>`";
+    return fmt::format(
+        "BehaviorTree.CPP has `{}`; if it is your own, describe it in "
+        "`<TreeNodesModel>`",
+        found->second);
+  }
+
   // False for a leaf of which there is nothing to say but that it is unknown.
   bool report_unknown(const BtcppNode& node) {
     const BtcppRelease release = document_.release;
@@ -562,7 +583,7 @@ class DocumentReader {
           fmt::format("taken as a {}", kind_name(node.kind)),
           !old.today.empty() ? fmt::format("version 4 calls it `{}`", old.today)
           : near             ? fmt::format("did you mean `{}`?", *near)
-                             : "describe it in `<TreeNodesModel>`"};
+                             : help_for_unknown(node.id)};
       // The program's own may well be described nowhere.
       if (old.today.empty() && !near) {
         findings_.note(node.place, std::move(finding));

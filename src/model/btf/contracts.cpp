@@ -2,10 +2,10 @@
 //
 // A contract narrows what a leaf may answer (:returns), says when it can only
 // fail (:requires) and what decides its answer (:succeeds-when), what it
-// changes (:on-success, :on-failure) and how long it takes (:duration). What
-// the node itself says comes on top: :SF takes running away, its own :duration
-// wins. Contracts of XML trees stand in files beside them, whose forms are read
-// here as well.
+// changes (:on-success, :on-failure) and how long it takes (:duration); and
+// what it means to its owner (leaf_meaning.hpp). What the node itself says
+// comes on top: :SF takes running away, its own :duration wins. Contracts of
+// XML trees stand in files beside them, whose forms are read here as well.
 #include "model/btf/contracts.hpp"
 
 #include <fmt/format.h>
@@ -19,19 +19,29 @@ namespace {
 
 constexpr std::size_t kMostContractWords = 2'000'000;
 
-constexpr std::array<KeywordRule, 7> kActionRules = {{
-    {"answers"},  // in side files
-    {"returns", Takes::List},
-    {"on-success", Takes::List},
-    {"on-failure", Takes::List},
-    {"requires", Takes::List},
-    {"succeeds-when", Takes::List},
-    {"duration", Takes::List},
-}};
-constexpr std::span<const KeywordRule> kTreeRules =
-    std::span(kActionRules).subspan(1);
+// What only actions have, then what both have, then what only conditions have.
+constexpr std::array kContractRules = {
+    KeywordRule{"answers"},  // in side files
+    KeywordRule{"duration", Takes::List},
+    KeywordRule{"may-be-cut-off", Takes::YesNo},
+    KeywordRule{"may-stay", Takes::YesNo},
+    KeywordRule{"idempotent", Takes::YesNo},
+    KeywordRule{"tells-only", Takes::YesNo},
+    KeywordRule{"undone-by", Takes::List},
+    KeywordRule{"returns", Takes::List},
+    KeywordRule{"on-success", Takes::List},
+    KeywordRule{"on-failure", Takes::List},
+    KeywordRule{"requires", Takes::List},
+    KeywordRule{"succeeds-when", Takes::List},
+    KeywordRule{"may-be-lost", Takes::YesNo},
+    KeywordRule{"asked-once", Takes::YesNo},
+    KeywordRule{"holds-while", Takes::List},
+};
+constexpr std::span<const KeywordRule> kActionRules =
+    std::span(kContractRules).first(13);
+constexpr std::span<const KeywordRule> kTreeRules = kActionRules.subspan(1);
 constexpr std::span<const KeywordRule> kConditionRules =
-    kTreeRules.first(5);  // all but :duration
+    std::span(kContractRules).subspan(7);
 
 class ContractReader {
  public:
@@ -40,7 +50,7 @@ class ContractReader {
       : reading_(reading),
         leaf_(leaf),
         is_beside_(place == ContractPlace::SideFile),
-        clauses_(reading, form, kActionRules) {
+        clauses_(reading, form, kContractRules) {
     contract_.form = form;
   }
 
@@ -54,6 +64,7 @@ class ContractReader {
     read_decision();
     contract_.on_success = effects("on-success");
     contract_.on_failure = effects("on-failure");
+    read_meaning();
     if (!is_action()) return std::move(contract_);
     if (const Clause* duration = clauses_.find("duration")) {
       contract_.duration = clauses_.duration(*duration);
@@ -93,9 +104,7 @@ class ContractReader {
       error(reading_.form(clauses_.items[1]).span, "this belongs to no keyword",
             "write `:keyword value`");
     }
-    contract_.name = name->kind == FormKind::Quoted
-                         ? name->text.substr(1, name->text.size() - 2)
-                         : name->text;
+    contract_.name = unquoted(*name);
     contract_.span = name->span;
     return true;
   }
@@ -168,6 +177,42 @@ class ContractReader {
     }
   }
 
+  void read_meaning() {
+    for (const MeaningFlag& flag : kMeaningFlags) {
+      contract_.meaning.*flag.value = clauses_.yes_or_no(flag.keyword);
+    }
+    for (const MeaningList& list : kMeaningLists) {
+      contract_.meaning.*list.names = leaf_names(list.keyword);
+    }
+  }
+
+  // `(Drive "line/*")`, or a single name: leaves, as contracts name them.
+  std::vector<std::string> leaf_names(std::string_view keyword) {
+    const Clause* clause = clauses_.find(keyword);
+    if (!clause) return {};
+    const Form& value = clauses_.value(*clause);
+    std::vector<std::string> names;
+    const auto add = [&](const Form& name) {
+      const bool is_quoted =
+          name.kind == FormKind::Quoted && name.text.size() > 2;
+      if (is_quoted || (name.is_word() && is_name(name.text))) {
+        names.push_back(unquoted(name));
+      } else {
+        error(name.span, "the name of a leaf is needed",
+              fmt::format("write `:{} (Drive)`", keyword));
+      }
+    };
+    if (!value.is_list()) add(value);
+    for (const FormId item : value.items) add(reading_.form(item));
+    return names;
+  }
+
+  static std::string unquoted(const Form& name) {
+    return std::string(name.kind == FormKind::Quoted
+                           ? name.text.substr(1, name.text.size() - 2)
+                           : name.text);
+  }
+
   // `((:= v e) (:= w f))`, or a single `(:= v e)`.
   std::vector<FormId> effects(std::string_view keyword) {
     const Clause* clause = clauses_.find(keyword);
@@ -216,6 +261,7 @@ std::vector<StateAssignment> read_effects(const Scope& scope,
 // The contract with its expressions, as they read from the scope's node.
 LeafContract read_contract(const Scope& scope, const ContractDraft& draft) {
   LeafContract contract = draft.results;
+  contract.meaning = draft.meaning;
   if (draft.requirement) {
     contract.requirement =
         read_condition(scope, *draft.requirement).value_or(Expression{});
@@ -248,6 +294,11 @@ void check_results(const Scope& scope, const Node& leaf) {
 }
 
 }  // namespace
+
+bool ContractDraft::has_behavior() const {
+  return has_returns || memory || duration || requirement || decision ||
+         !on_success.empty() || !on_failure.empty();
+}
 
 std::optional<ContractDraft> read_contract_draft(const Reading& reading,
                                                  FormId form, NodeType leaf,

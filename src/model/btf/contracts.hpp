@@ -29,9 +29,13 @@ struct ContractDraft {
   std::optional<Duration> duration;
   std::optional<FormId> requirement;
   std::optional<FormId> decision;  // :succeeds-when
+  LeafMeaning meaning;
   std::vector<FormId> on_success;
   std::vector<FormId> on_failure;
   bool is_used = false;
+
+  // It changes what the leaf may do; else it only says what that means.
+  bool has_behavior() const;
 };
 
 // Where a contract stands. One in a file beside an XML tree can also say that a

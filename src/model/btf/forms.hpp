@@ -96,8 +96,9 @@ struct Reading {
   }
 };
 
-// What may follow a keyword: nothing (or 0 or 1), one word, a list or a word.
-enum class Takes : unsigned char { Flag, Word, List };
+// What may follow a keyword: nothing (or 0 or 1), nothing (or yes or no), one
+// word, a list or a word.
+enum class Takes : unsigned char { Flag, YesNo, Word, List };
 
 // Of a variable or an entry whose values are named.
 inline constexpr std::size_t kMostDeclaredStates = 256;
@@ -145,6 +146,8 @@ class Clauses {
   std::vector<Argument> arguments(const Clause& clause) const;
   // `:halt`, `:halt 1`.
   bool flag(std::string_view name) const;
+  // `:may-be-lost`, `:may-be-lost no`; nothing where it is not given.
+  std::optional<bool> yes_or_no(std::string_view name) const;
 
   // The name of a keyword as written, `:halt`.
   std::string_view text(const Clause& clause) const;

@@ -31,8 +31,13 @@ bool can_be_value(const Form& keyword, Takes takes, const Form& next) {
     case FormKind::List:
       return takes == Takes::List;
     default:
-      return takes != Takes::Flag || next.text == "0" || next.text == "1";
+      if (takes == Takes::Flag) return next.text == "0" || next.text == "1";
+      return takes != Takes::YesNo || next.text == "yes" || next.text == "no";
   }
+}
+
+bool can_stand_alone(Takes takes) {
+  return takes == Takes::Flag || takes == Takes::YesNo;
 }
 
 }  // namespace
@@ -67,7 +72,7 @@ const Clause* Clauses::find(std::string_view name) const {
       reading_.error(keyword.span, "BT1006",
                      fmt::format("`{}` is given twice", keyword.text),
                      "the first one is used", "delete one of them");
-    } else if (!clause.value && !(rule && rule->takes == Takes::Flag)) {
+    } else if (!clause.value && !(rule && can_stand_alone(rule->takes))) {
       reading_.error(keyword.span, "BT1006",
                      fmt::format("`{}` has no value", keyword.text),
                      is_before_list(keyword) ? "a word must follow, not a list"
@@ -159,6 +164,12 @@ bool Clauses::flag(std::string_view name) const {
   const auto number = integer_between(*clause, 0, 1);
   if (!number) report_value(*clause, "0 or 1 is needed");
   return number == 1;
+}
+
+std::optional<bool> Clauses::yes_or_no(std::string_view name) const {
+  const Clause* clause = find(name);
+  if (!clause) return std::nullopt;
+  return !clause->value || value(*clause).text == "yes";
 }
 
 std::optional<std::string> Clauses::name(const Clause& clause) const {

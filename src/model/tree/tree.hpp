@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "model/tree/expression.hpp"
+#include "model/tree/leaf_meaning.hpp"
 #include "model/tree/scale.hpp"
 #include "text/diagnostic.hpp"
 #include "text/input_file.hpp"
@@ -319,6 +320,7 @@ struct LeafContract {
   std::int32_t success_program = kNoProgram;
   std::int32_t failure_program = kNoProgram;
   std::int32_t running_program = kNoProgram;
+  LeafMeaning meaning;
 
   // What it needs to succeed.
   Expression needed() const { return both(requirement, decision); }

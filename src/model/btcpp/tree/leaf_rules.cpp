@@ -110,6 +110,11 @@ void LeafRules::choose() {
           !is_open_leaf(release, *node.node, rule.leaf)) {
         continue;
       }
+      if (rule.meaning != LeafMeaning{}) {
+        meant_[i].push_back(&rule);
+        is_used_[k] = true;
+      }
+      if (!rule.has_behavior) continue;
       if (chosen_[i] != nullptr) {
         if (before_[k] == nullptr) before_[k] = chosen_[i];
         continue;
@@ -125,14 +130,16 @@ void LeafRules::choose() {
 void LeafRules::apply(std::uint32_t instance, NodeScripts& scripts,
                       Node& leaf) {
   const LeafRule* rule = chosen_[instance];
+  LeafContract& contract = leaf.contract;
+  if (const auto meant = meant_.find(instance); meant != meant_.end()) {
+    for (const LeafRule* each : meant->second) {
+      add_meaning(each->meaning, contract.meaning);
+      if (rule == nullptr) take_type(*each, leaf);
+    }
+  }
   if (rule == nullptr) return;
   leaf.is_guessed = false;
-  LeafContract& contract = leaf.contract;
-  if (leaf.type != rule->leaf) {
-    leaf.type = rule->leaf;
-    contract.may_run = false;
-    contract.memory = LeafMemory::None;
-  }
+  take_type(*rule, leaf);
   if (rule->results) take_results(*rule->results, contract);
   if (rule->memory) contract.memory = *rule->memory;
   if (!rule->decision.code.empty()) take_decision(contract);
@@ -171,6 +178,15 @@ void LeafRules::apply(std::uint32_t instance, NodeScripts& scripts,
              contract.success_program);
   set_effect(rule->on_failure, contract.on_failure, contract.failure_leaves,
              contract.failure_program);
+}
+
+// That it is a condition, of a leaf that was taken for an action.
+void LeafRules::take_type(const LeafRule& rule, Node& leaf) {
+  if (rule.leaf != NodeType::Condition || leaf.type == rule.leaf) return;
+  leaf.is_guessed = false;
+  leaf.type = rule.leaf;
+  leaf.contract.may_run = false;
+  leaf.contract.memory = LeafMemory::None;
 }
 
 void LeafRules::check(const LeafRule& rule, const Node& leaf) {
@@ -313,10 +329,13 @@ void LeafRules::report_unused(std::size_t number) {
     return;
   }
   if (is_of_other_tree(rule)) return;
+  // What leaves mean is said for a whole project.
+  const std::string help = nearest(rule);
+  if (!rule.has_behavior && help.starts_with("there are")) return;
   findings_.warning(place, {"BT1021",
                             fmt::format("no {} is called `{}`",
                                         type_name(rule.leaf), rule.name),
-                            "this contract is not used", nearest(rule)});
+                            "this contract is not used", help});
 }
 
 // Whether no leaf of this tree has the name, and one of another tree has.

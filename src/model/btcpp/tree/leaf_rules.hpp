@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -41,6 +42,9 @@ struct LeafRule {
   std::string name;                     // of leaves, with wildcards
   SourceSpan span;                      // of the name
   std::optional<LeafContract> results;  // only what it may answer
+  // False: it only says what the leaf means, and leaves the rest to others.
+  bool has_behavior = true;
+  LeafMeaning meaning;
   std::optional<LeafMemory> memory;
   std::optional<Duration> duration;  // in ticks
   ContractScript requirement;
@@ -75,8 +79,9 @@ struct LeafContracts {
   std::set<std::string> elsewhere;
 };
 
-// A leaf has the first contract that matches it, in the order of the files. A
-// contract's name matches as the name of a substitution rule does in
+// A leaf has the first contract that matches it, in the order of the files;
+// what it means is taken from all of them, of each part the first that is said.
+// A contract's name matches as the name of a substitution rule does in
 // BehaviorTree.CPP: it is the leaf's name or type, or a pattern of its full
 // path (BehaviorTreeFactory::instantiateTreeNode of 4.10). The engine's own
 // leaves have no contract.
@@ -105,6 +110,7 @@ class LeafRules {
  private:
   void declare(const DeclaredEntry& declared);
   void choose();
+  static void take_type(const LeafRule& rule, Node& leaf);
   void check(const LeafRule& rule, const Node& leaf);
   void check_type(const DeclaredEntry& declared, const NodeScripts& scripts);
   void check_entries(std::uint32_t file, std::span<const NamedEntry> entries,
@@ -117,6 +123,8 @@ class LeafRules {
   const LeafContracts& contracts_;
   FileFindings findings_;
   std::vector<const LeafRule*> chosen_;  // by instance, or nullptr
+  // By instance, where there are any: those that say what the leaf means.
+  std::map<std::uint32_t, std::vector<const LeafRule*>> meant_;
   // By rule: whether a leaf has it, and an earlier rule that took one of its.
   std::vector<bool> is_used_;
   std::vector<const LeafRule*> before_;
