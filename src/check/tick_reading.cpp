@@ -33,6 +33,7 @@ struct TickAtom {
   std::optional<NodeId> node = {};  // whose answer it is
   bool is_event = false;            // as written, it holds for an instant
   bool is_final = false;            // of an answer that is no longer running
+  std::string level = {};           // of an event: the status that lasts then
 };
 using MaybeAtom = std::optional<TickAtom>;
 
@@ -95,6 +96,9 @@ class AtomReader {
         is_called ? answered(*of, "!=", "none") : answered(*of, "==", word);
     // What the root answers in the end it goes on to answer.
     read.is_event = word != "active" && !is_root;
+    if (read.is_event && equal_ignoring_case(word, "running")) {
+      read.level = fmt::format("{}.status == running", reference(*of));
+    }
     return read;
   }
 
@@ -231,12 +235,22 @@ std::string text_of(const Questions& asked) {
   for (const std::string& part : asked.reading.together) {
     text += fmt::format("property q{}: possible {}\n", ++number, part);
   }
+  if (!asked.reading.of_levels.empty()) {
+    text +=
+        fmt::format("property q{}: {}\n", ++number, asked.reading.of_levels);
+  }
   return text;
 }
 
-std::size_t count_of(const Questions& asked) {
+// Without the one of levels, which is the last.
+std::size_t count_of_parts(const Questions& asked) {
   const std::size_t parts = asked.reading.together.size();
   return parts == 0 ? 1 : 2 + parts;
+}
+std::size_t count_of(const Questions& asked) {
+  const bool has_levels =
+      !asked.reading.together.empty() && !asked.reading.of_levels.empty();
+  return count_of_parts(asked) + (has_levels ? 1 : 0);
 }
 
 // The verdicts of such a file; none where it says what cannot be asked.
@@ -292,6 +306,20 @@ std::optional<TickReading> tick_reading(const BehaviorTree& tree,
                     return read[number].text;
                   }));
   add_together(file, *whole, read, reading);
+  const auto used = file.formulas.atoms(whole->first);
+  const bool are_levels =
+      reading.are_events && !whole->second &&
+      std::ranges::all_of(used, [&](std::uint32_t number) {
+        return !read[number].is_event || !read[number].level.empty();
+      });
+  if (are_levels) {
+    reading.of_levels = fmt::format(
+        "never ({})",
+        file.formulas.text(whole->first, [&](std::uint32_t number) {
+          return read[number].level.empty() ? file.atoms[number].text
+                                            : read[number].level;
+        }));
+  }
   if (reading.together.empty() && !is_demanded) return std::nullopt;
   return reading;
 }
@@ -338,13 +366,21 @@ std::vector<std::optional<TickAdvice>> tick_advice(
     bool is_apart =
         !asked.reading.together.empty() &&
         (asked.reading.are_events || of_reading == Verdict::Violated);
-    for (std::size_t q = 1; q < count_of(asked); ++q) {
+    for (std::size_t q = 1; q < count_of_parts(asked); ++q) {
       is_apart = is_apart && holds(q);
     }
     if (!is_apart || !verdict.idle.empty()) continue;
     verdict.idle =
         fmt::format("{}", fmt::join(asked.reading.together, " and "));
-    advice[asked.verdict] = told;
+    const bool says_more =
+        of_reading == Verdict::Holds &&
+        count_of(asked) > count_of_parts(asked) &&
+        found[asked.first + count_of_parts(asked)].verdict == Verdict::Violated;
+    advice[asked.verdict] =
+        says_more
+            ? TickAdvice{asked.reading.of_levels,
+                         may_be_unreal ? Verdict::Undecided : Verdict::Violated}
+            : told;
   }
   return advice;
 }

@@ -22,6 +22,9 @@ struct TickReading {
   // all of them events, which hold for an instant, or all of them levels.
   std::vector<std::string> together;
   bool are_events = false;
+  // Where these are events of running alone: the rule of the statuses that last
+  // between them, `never (a.status == running and …)`; else "".
+  std::string of_levels = {};
 };
 
 // What is told beside the verdict of a rule.
@@ -40,7 +43,9 @@ std::optional<TickReading> tick_reading(const BehaviorTree& tree,
 // For each verdict of the file the reading that may have been meant instead.
 // One that holds because the events it forbids never stand in the same instant,
 // though each happens, becomes vacuous; so does one over levels where the
-// reading is violated. One that is violated gets a reading that holds.
+// reading is violated. Where the reading holds, too, and the statuses that last
+// do stand together, it is these that are named. One that is violated gets a
+// reading that holds.
 std::vector<std::optional<TickAdvice>> tick_advice(
     const BehaviorTree& tree, const PropertyFile& file, const Network& network,
     const SearchChoices& choices, const Limits& limits,
