@@ -111,6 +111,7 @@ class Confirmation {
     if (finding.code == "BT2213") {
       return !can(node, Success) || !can(node, Failure);
     }
+    if (finding.code == "BT2512") return can(node, Failure);
     if (finding.code == "BT2212") {
       return !can(node, Success) && !can(node, Failure) && !can(node, Running);
     }

@@ -24,7 +24,7 @@ class Chases : Look {
   using Look::Look;
 
   void look_at(NodeId id, const Node& node) {
-    if (is_limit(node) && !facts_.is_root(id)) {
+    if (is_limit(id) && !facts_.is_root(id)) {
       look_at_one_limit(id);
       look_at_outer_limit(id);
     }
@@ -35,10 +35,11 @@ class Chases : Look {
 
  private:
   // A condition with numbers to compare with, and nothing else that it names.
-  static bool is_limit(const Node& node) {
-    if (node.type != NodeType::Condition || limits_of(node).empty()) {
-      return false;
-    }
+  bool is_limit(NodeId id) const {
+    const Node& node = facts_.node(id);
+    const bool asks =
+        node.type == NodeType::Condition || is_taken_for_condition(node);
+    if (!asks || limits_of(node).empty()) return false;
     return std::ranges::all_of(node.arguments, [](const Argument& each) {
       return is_bound(each) || each.value.starts_with('{');
     });
@@ -91,18 +92,20 @@ class Chases : Look {
         leaves, [&](NodeId leaf) { return facts_.is_deed(leaf); });
     found_.push_back(
         {.finding =
-             {.code = "BT2210",
+             {.code = "BT2504",
               .severity = Severity::Note,
               .node = id,
               .others = {deed, parent},
-              .message = fmt::format(
-                  "{} is begun and given up at the same level", told(deed)),
+              .message = fmt::format("{} is begun and given up at the same "
+                                     "level: may the value move about it?",
+                                     told(deed)),
               .why = fmt::format("{} is asked in each tick, with one limit for "
                                  "both: {}",
                                  told(id), limits_of(facts_.node(id))),
               .help = fmt::format("ask for more where {} may end than where it "
                                   "has to begin",
-                                  told(deed))},
+                                  told(deed)),
+              .rank = 12},
          .shown_by = {{id, LocationRole::Failure}}});
   }
 
@@ -124,19 +127,22 @@ class Chases : Look {
       }
       found_.push_back(
           {.finding =
-               {.code = "BT2210",
+               {.code = "BT2504",
                 .severity = Severity::Note,
                 .node = id,
                 .others = {*outer, above},
                 .message =
-                    fmt::format("{} never gets what it waits for", told(id)),
+                    fmt::format("{} never gets what it waits for: is its "
+                                "limit meant?",
+                                told(id)),
                 .why = fmt::format(
                     "{} asks for less, and {} halts this branch as soon as it "
                     "succeeds",
                     told(*outer), told(above)),
                 .help = fmt::format("ask {} for less than {}, or keep {} from "
                                     "being asked meanwhile",
-                                    told(id), told(*outer), told(*outer))},
+                                    told(id), told(*outer), told(*outer)),
+                .rank = 8},
            .shown_by = {{id, LocationRole::Failure}}});
       return;
     }
@@ -151,7 +157,7 @@ class Chases : Look {
         node.type == NodeType::ReactiveFallback && node.children[0] != child;
     if (!is_else && !is_behind) return std::nullopt;
     const NodeId asked = facts_.core(node.children[0]);
-    return is_limit(facts_.node(asked)) ? std::optional(asked) : std::nullopt;
+    return is_limit(asked) ? std::optional(asked) : std::nullopt;
   }
 
   // The same condition, with the same limits or some that are harder to meet.
@@ -180,20 +186,21 @@ class Chases : Look {
   void look_at_moment(NodeId id, const Node& node) {
     const NodeId asked = facts_.core(node.children[0]);
     const NodeId branch = node.children[1];
-    if (facts_.node(asked).type != NodeType::Condition ||
-        !tells_of_moment(facts_.node(asked).id)) {
-      return;
-    }
+    const Node& condition = facts_.node(asked);
+    const bool asks = condition.type == NodeType::Condition ||
+                      is_taken_for_condition(condition);
+    if (!asks || !tells_of_moment(condition.id)) return;
     if (!facts_.may_run(branch) || !facts_.has_deed(branch)) return;
     const bool is_sequence = node.type == NodeType::ReactiveSequence;
     found_.push_back(
-        {.finding = {.code = "BT2210",
+        {.finding = {.code = "BT2504",
                      .severity = Severity::Note,
                      .node = asked,
                      .others = {branch, id},
-                     .message = fmt::format(
-                         "{} is halted when {} is over before it has ended",
-                         told(branch), told(asked)),
+                     .message =
+                         fmt::format("{} is halted when {} is over before "
+                                     "it has ended: is that meant?",
+                                     told(branch), told(asked)),
                      .why = fmt::format("{} asks in each tick, and this by "
                                         "its name tells of a moment",
                                         told(id)),
@@ -202,7 +209,8 @@ class Chases : Look {
                          is_sequence ? "a Sequence" : "an IfThenElse",
                          told(id)),
                      .repairs = {{ChangeType{
-                         place(id), is_sequence ? "Sequence" : "IfThenElse"}}}},
+                         place(id), is_sequence ? "Sequence" : "IfThenElse"}}},
+                     .rank = 14},
          .shown_by = {
              {asked, LocationRole::Failure, {{branch, NodeStatus::Running}}}}});
   }

@@ -139,7 +139,8 @@ class Endings : Look {
     for (const NodeId child : node.children) {
       if (is_task(child)) tasks.push_back(child);
     }
-    if (static_cast<int>(tasks.size()) <= needed || !others_watch(node)) {
+    if (static_cast<int>(tasks.size()) <= needed || !others_watch(node) ||
+        facts_.said(tasks, &LeafMeaning::may_be_cut_off) == true) {
       return;
     }
     std::vector<Sighting> seen;

@@ -10,6 +10,7 @@
 #include "model/tree/node_types.hpp"
 #include "text/budget.hpp"
 #include "text/findings.hpp"
+#include "text/wildcards.hpp"
 
 namespace btcheck {
 
@@ -38,6 +39,7 @@ TreeFacts::TreeFacts(const NormalTree& normal)
     const Node& node = tree.nodes[n];
     end_[n] = node.children.empty() ? n + 1 : end_[index(node.children.back())];
     may_run_[n] = is_leaf(node.type) && answers_[n].runs;
+    has_meanings_ = has_meanings_ || node.contract.meaning != LeafMeaning{};
     for (const NodeId child : node.children) {
       if (may_run_[index(child)]) may_run_[n] = true;
     }
@@ -71,13 +73,50 @@ bool TreeFacts::is_condition(NodeId id) const {
   if (of.type == NodeType::Condition) return !only_sends(of.id);
   if (of.type == NodeType::Eval) return !of.assignment;
   if (of.type == NodeType::Script) return of.answers_value;
-  return of.type == NodeType::Action && sounds_like_condition(of.id);
+  return is_taken_for_condition(of);
 }
 
 bool TreeFacts::is_deed(NodeId id) const {
   const NodeType type = node(id).type;
   return (type == NodeType::Action || type == NodeType::Condition) &&
-         !is_condition(id);
+         !is_condition(id) && node(id).contract.meaning.tells_only != true;
+}
+
+std::optional<bool> TreeFacts::said(NodeId whole, Meaning meaning) const {
+  if (!has_meanings_) return std::nullopt;
+  std::optional<bool> all;
+  for (const NodeId leaf : leaves(whole)) {
+    const bool counts = leaf == whole || is_deed(leaf);
+    if (!counts || is_constant(leaf)) continue;
+    const auto& one = node(leaf).contract.meaning.*meaning;
+    if (one == false) return false;
+    all = one && all.value_or(true);
+  }
+  return all == true ? all : std::nullopt;
+}
+
+std::optional<bool> TreeFacts::said(const std::vector<NodeId>& nodes,
+                                    Meaning meaning) const {
+  bool is_yes = !nodes.empty();
+  for (const NodeId each : nodes) {
+    const auto one = said(each, meaning);
+    if (one == false) return false;
+    is_yes = is_yes && one;
+  }
+  return is_yes ? std::optional(true) : std::nullopt;
+}
+
+bool TreeFacts::is_named(NodeId leaf,
+                         const std::vector<std::string>& names) const {
+  const Node& of = node(leaf);
+  return std::ranges::any_of(names, [&](const std::string& name) {
+    return name == of.id || name == of.name || matches_wildcard(name, of.path);
+  });
+}
+
+bool TreeFacts::only_tells(NodeId leaf) const {
+  return node(leaf).contract.meaning.tells_only.value_or(
+      btcheck::only_tells(node(leaf).id));
 }
 
 bool TreeFacts::is_constant(NodeId id) const {
@@ -109,6 +148,40 @@ bool TreeFacts::is_relied_on(NodeId id) const {
     }
   }
   return false;
+}
+
+std::optional<LocationRole> TreeFacts::decided(NodeId above, NodeId child,
+                                               LocationRole answer) const {
+  const Node& of = node(above);
+  const bool fails = answer == LocationRole::Failure;
+  const bool is_last = of.children.back() == child;
+  const auto count = static_cast<int>(of.children.size());
+  const auto where = [&](bool is_so) {
+    return is_so ? std::optional(answer) : std::nullopt;
+  };
+  switch (info_of(of.type).flow) {
+    case Flow::AsChild:
+      return answer;
+    case Flow::Inverts:
+      return fails ? LocationRole::Success : LocationRole::Failure;
+    case Flow::OnSuccess:
+      return where(fails || is_last);
+    case Flow::OnFailure:
+      return where(!fails || is_last);
+    case Flow::Repeats:
+      return where(fails);
+    default:
+      return where(of.type == NodeType::Parallel && fails &&
+                   threshold_of(of.failure_threshold, count) == 1);
+  }
+}
+
+bool TreeFacts::fails_with(NodeId above, NodeId below) const {
+  auto answer = std::optional(LocationRole::Failure);
+  for (; answer && parent(below) != above; below = parent(below)) {
+    answer = decided(parent(below), below, *answer);
+  }
+  return answer == LocationRole::Failure;
 }
 
 std::size_t TreeFacts::place_of(NodeId id) const {
@@ -162,6 +235,11 @@ std::string TreeFacts::type_word(NodeId id) const {
 
 bool TreeFacts::has_scripts() const {
   return is_engine(tree_.profile) && !is_release_3(tree_.profile);
+}
+
+bool is_taken_for_condition(const Node& node) {
+  return node.type == NodeType::Action && node.is_guessed &&
+         sounds_like_condition(node.id);
 }
 
 bool is_ticked_while(const BehaviorTree& tree, NodeId node, NodeId running) {

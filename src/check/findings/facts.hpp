@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "check/findings/normal_tree.hpp"
+#include "model/automata/network.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree/tree.hpp"
 
@@ -42,10 +44,26 @@ class TreeFacts {
   bool is_deed(NodeId node) const;
   std::size_t deeds(NodeId node) const;  // how many it has below it
   bool has_deed(NodeId node) const { return deeds(node) > 0; }
+  // What the owner says of all the deeds below a node, or of the leaf that it
+  // is: no where one of them may not, yes where each may.
+  using Meaning = std::optional<bool> LeafMeaning::*;
+  std::optional<bool> said(NodeId node, Meaning meaning) const;
+  std::optional<bool> said(const std::vector<NodeId>& nodes,
+                           Meaning meaning) const;
+  // By one of the names that a contract gives.
+  bool is_named(NodeId leaf, const std::vector<std::string>& names) const;
+  // It only tells somebody: so says its owner, or else its name.
+  bool only_tells(NodeId leaf) const;
   // AlwaysSuccess, AlwaysFailure: all that it has is its answer.
   bool is_constant(NodeId node) const;
   // Through SubTrees and decorators that pass their child's answer on.
   NodeId core(NodeId node) const;
+  // Where the one below fails, so does the child of `above` that it stands in.
+  bool fails_with(NodeId above, NodeId below) const;
+  // What a node above answers as soon as its child has answered so, if that
+  // decides it.
+  std::optional<LocationRole> decided(NodeId above, NodeId child,
+                                      LocationRole answer) const;
   // Does the mission go on behind this node when it has succeeded?
   bool is_relied_on(NodeId node) const;
   // Which child of its parent it is, from 0.
@@ -101,10 +119,13 @@ class TreeFacts {
   std::vector<Answers> answers_;
   std::vector<std::uint32_t> end_;  // by node: behind its last descendant
   std::vector<bool> may_run_;
+  bool has_meanings_ = false;                // of any leaf
   std::vector<std::uint32_t> deeds_before_;  // by node, and at the end
   mutable std::vector<std::string> names_;   // by node, once one is told
 };
 
+// A leaf that nothing describes, and whose name is that of a condition.
+bool is_taken_for_condition(const Node& node);
 // Whether a node may be ticked between two ticks of a running action.
 bool is_ticked_while(const BehaviorTree& tree, NodeId node, NodeId running);
 // A node that resumes its running child: the others are not asked meanwhile.

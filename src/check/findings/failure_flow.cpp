@@ -143,17 +143,21 @@ class FailureFlow : Look {
     // Of more than two, each is what is done where those before it cannot be: a
     // list of priorities.
     const bool is_list = node.children.size() > 2;
+    const auto said = facts_.said(acts, &LeafMeaning::may_be_lost);
+    if (said == true) return;
     Suspicion& made = add(
-        {.code = "BT2207",
-         .severity = is_list ? Severity::Note : Severity::Warning,
+        {.code = is_list && !said ? "BT2507" : "BT2207",
+         .severity = is_list && !said ? Severity::Note : Severity::Warning,
          .node = branch,
          .others = {id, leaf},
          .message = fmt::format(
-             "the mission goes on although {} {}, when what follows it fails",
-             told(leaf), is_turned ? "failed" : "succeeded"),
+             "the mission goes on although {} {}, when what follows it fails{}",
+             told(leaf), is_turned ? "failed" : "succeeded",
+             is_list && !said ? ": is that meant?" : ""),
          .why = fmt::format("{} takes this failure for a {} that {}", told(id),
                             told(leaf), is_turned ? "succeeded" : "failed"),
-         .help = "retry what follows, or end the mission when it fails"});
+         .help = "retry what follows, or end the mission when it fails",
+         .rank = 40});
     made.shown_by.push_back({acts, LocationRole::Failure});
     made.then = Consequence{branch, LocationRole::Failure};
   }
@@ -332,7 +336,9 @@ class FailureFlow : Look {
     if (facts_.is_root(facts_.parent(id)) || !ends_mission(id)) return;
     std::vector<NodeId> ways;
     for (const NodeId leaf : facts_.leaves(id)) {
-      if (facts_.answers(leaf).failure) ways.push_back(leaf);
+      if (facts_.answers(leaf).failure && facts_.fails_with(id, leaf)) {
+        ways.push_back(leaf);
+      }
     }
     const NodeId child = facts_.core(node.children[0]);
     const bool is_sequence =
@@ -354,11 +360,11 @@ class FailureFlow : Look {
 
   // The failure of the node is that of the tree.
   bool ends_mission(NodeId id) const {
-    for (; !facts_.is_root(id); id = facts_.parent(id)) {
-      const Flow flow = info_of(facts_.node(facts_.parent(id)).type).flow;
-      if (flow != Flow::OnSuccess && flow != Flow::AsChild) return false;
+    auto answer = std::optional(LocationRole::Failure);
+    for (; answer && !facts_.is_root(id); id = facts_.parent(id)) {
+      answer = facts_.decided(facts_.parent(id), id, *answer);
     }
-    return true;
+    return answer == LocationRole::Failure;
   }
 };
 

@@ -40,6 +40,7 @@ bool is_told_by(const TreeFinding& finding, const TreeFinding& other) {
     return !is_question(other) && is_about(finding, other.node) &&
            is_about(other, finding.node);
   }
+  if (is_question(other)) return false;
   if (finding.code == "BT2201") {
     return std::ranges::count(other.others, finding.node) > 0;
   }
@@ -70,6 +71,14 @@ void merge_alike(std::vector<TreeFinding>& findings, const BehaviorTree& tree) {
 }
 
 }  // namespace
+
+TreeFinding asked(TreeFinding finding, std::string_view question,
+                  std::optional<bool> said, std::string_view against) {
+  const bool is_answered = said == false;
+  finding.severity = is_answered ? Severity::Warning : Severity::Note;
+  finding.message.append(": ").append(is_answered ? against : question);
+  return finding;
+}
 
 Suspicion& Look::add(TreeFinding finding) {
   found_.push_back({.finding = std::move(finding)});

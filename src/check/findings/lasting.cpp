@@ -2,7 +2,7 @@
 //
 // What outlives the work that it was done for: a leaf that goes on running when
 // a node above it has decided (BT2206), an entry or a device that is set and
-// never set back (BT2216).
+// never set back (BT2216), or not on every way out of the mission (BT2513).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,6 +45,7 @@ class Lasting : Look {
       of_words_[words_in(nodes[n].id)].push_back(NodeId{n});
       as_written_[written(nodes[n])].push_back(NodeId{n});
       last_with_values_[values_of(nodes[n])] = NodeId{n};
+      if (facts.is_deed(NodeId{n})) note_values(nodes[n], NodeId{n});
     }
     next_failing_.resize(nodes.size());
     for (const Node& node : nodes) {
@@ -141,18 +142,17 @@ class Lasting : Look {
 
   // StartVacuum, and StopVacuum that a failure leaves out.
   void look_at_pair(NodeId id) {
-    const auto undoing = words_of_undoing(facts_.node(id).id);
-    const std::vector<NodeId> undoers = undoing.empty()
-                                            ? switched_back(facts_.node(id))
-                                            : found_in(of_words_, undoing);
-    if (undoers.empty()) return;
-    const auto way = open_way(id, [&](NodeId begin, NodeId end) {
-      return first_between(undoers, begin, end);
-    });
+    const LeafMeaning& meaning = facts_.node(id).contract.meaning;
+    if (meaning.may_stay == true) return;
+    const std::vector<NodeId> undoers = undoers_of(id);
+    if (undoers.empty()) return look_at_values(id);
+    const auto way = way_without(undoers, id);
     if (!way) return;
     const NodeId ended = way->ended;
-    if (is_done_again_behind(id, facts_.child_with(way->sequence, ended)))
+    if (meaning.undone_by.empty() &&
+        is_done_again_behind(id, facts_.child_with(way->sequence, ended))) {
       return;
+    }
     found_.push_back(
         {.finding = {.code = "BT2206",
                      .node = id,
@@ -167,6 +167,150 @@ class Lasting : Look {
                      .repairs = ended_on_failure(*way)},
          .shown_by = {{way->failing, LocationRole::Failure}},
          .then = Consequence{way->sequence, LocationRole::Failure}});
+  }
+
+  // By what the owner says, else by the words of its name, else by its values.
+  std::vector<NodeId> undoers_of(NodeId id) const {
+    const Node& node = facts_.node(id);
+    const auto& said = node.contract.meaning.undone_by;
+    if (!said.empty()) return named_otherwise(said, node);
+    const auto undoing = words_of_undoing(node.id);
+    return undoing.empty() ? switched_back(node) : found_in(of_words_, undoing);
+  }
+
+  // Leaves of these names that are not written as the node itself is.
+  std::vector<NodeId> named_otherwise(const std::vector<std::string>& names,
+                                      const Node& node) const {
+    const std::string own = written(node);
+    std::vector<NodeId> nodes;
+    for (std::uint32_t n = 0; n < facts_.tree().nodes.size(); ++n) {
+      ask_budget();
+      const bool is_meant = is_leaf(facts_.tree().nodes[n].type) &&
+                            facts_.is_named(NodeId{n}, names) &&
+                            written(facts_.tree().nodes[n]) != own;
+      if (is_meant) nodes.push_back(NodeId{n});
+    }
+    return nodes;
+  }
+
+  std::optional<Way> way_without(const std::vector<NodeId>& undoers,
+                                 NodeId begun) const {
+    return open_way(begun, [&](NodeId begin, NodeId end) {
+      return first_between(undoers, begin, end);
+    });
+  }
+
+  // --- Two values of one leaf, or of an entry --------------------------------
+
+  // The leaves of a type, by what they are given: as far as there are two ways
+  // to write them, and where the last one stands.
+  struct Values {
+    std::vector<std::string> ways = {};  // at most three
+    NodeId last{};
+    bool are_literals = true;
+  };
+  void note_values(const Node& node, NodeId id) {
+    Values& values = values_[node.id];
+    values.last = id;
+    values.are_literals =
+        values.are_literals && !node.arguments.empty() &&
+        std::ranges::none_of(node.arguments, [](const Argument& each) {
+          return each.value.find('{') != each.value.npos;
+        });
+    const std::string way = written(node);
+    if (values.ways.size() < 3 && std::ranges::count(values.ways, way) == 0) {
+      values.ways.push_back(way);
+    }
+  }
+
+  // Gripper action="close", …, Gripper action="open": a failure between leaves
+  // it closed. By the values that a leaf is given, or that its script gives an
+  // entry, whatever they are called.
+  void look_at_values(NodeId id) {
+    const Node& node = facts_.node(id);
+    const Values& values = values_.at(node.id);
+    const Node& last = facts_.node(values.last);
+    const bool is_switched = values.are_literals && values.ways.size() == 2 &&
+                             written(last) != written(node) &&
+                             is_switch(id, node, last);
+    if (is_switched) {
+      const auto way = way_without(as_written_.at(written(last)), id);
+      if (!way) return;
+      const NodeId ended = facts_.child_with(way->sequence, way->ended);
+      if (is_done_again_behind(id, ended)) return;
+      return add_left(id, *way, value_left(node, last));
+    }
+    for (const EntryUse* use : facts_.uses_of(id)) {
+      const bool is_set = use->writes && !use->literal.empty() &&
+                          use->when == ScriptTime::OnSuccess;
+      if (!is_set) continue;
+      const auto way = open_way(id, [&](NodeId begin, NodeId end) {
+        return first_deed_that_sets_back(*use, begin, end);
+      });
+      if (!way) continue;
+      return add_left(
+          id, *way,
+          fmt::format("`{}` stays {}", facts_.tree().entries[use->entry],
+                      use->literal));
+    }
+  }
+
+  // It is set back to what it was, or has two values only: not a way from one
+  // place to another.
+  bool is_switch(NodeId id, const Node& node, const Node& last) const {
+    if (as_written_.at(written(last)).front() < id) return true;
+    constexpr std::string_view kTwo[] = {"true", "false", "0", "1"};
+    return std::ranges::any_of(node.arguments, [&](const Argument& each) {
+      const std::string* other = value_of(last, each.key);
+      return other != nullptr && *other != each.value &&
+             std::ranges::count(kTwo, each.value) > 0 &&
+             std::ranges::count(kTwo, *other) > 0;
+    });
+  }
+
+  static const std::string* value_of(const Node& node, std::string_view port) {
+    const auto found = std::ranges::find(node.arguments, port, &Argument::key);
+    return found == node.arguments.end() ? nullptr : &found->value;
+  }
+
+  std::string value_left(const Node& node, const Node& last) const {
+    for (std::size_t i = 0; i < node.arguments.size(); ++i) {
+      const Argument& own = node.arguments[i];
+      const bool differs =
+          i >= last.arguments.size() || last.arguments[i].value != own.value;
+      if (!differs) continue;
+      return fmt::format("`{}` stays at {}=\"{}\"", node.id, own.key,
+                         own.value);
+    }
+    return fmt::format("`{}` stays as it is", node.id);
+  }
+
+  std::optional<NodeId> first_deed_that_sets_back(const EntryUse& set,
+                                                  NodeId begin, NodeId end) {
+    auto found = first_other(set, begin, end);
+    while (found && !facts_.is_deed(*found)) {
+      found = first_other(set, NodeId{index(*found) + 1}, end);
+    }
+    return found;
+  }
+
+  void add_left(NodeId id, const Way& way, std::string left) {
+    found_.push_back(
+        {.finding = asked(
+             {.code = "BT2513",
+              .node = id,
+              .others = {way.ended, way.failing},
+              .message = fmt::format("{} when {} fails, and {} is not ticked",
+                                     left, told(way.failing), told(way.ended)),
+              .why = "what is set here outlasts the mission then",
+              .help = fmt::format("tick {} on the way out of a failure, too",
+                                  told(way.ended)),
+              .repairs = ended_on_failure(way),
+              .rank = 26},
+             "is that meant?", facts_.node(id).contract.meaning.may_stay,
+             "by a contract it may not stay so"),
+         .shown_by = {{way.failing, LocationRole::Failure}},
+         .then = Consequence{way.sequence, LocationRole::Failure}});
   }
 
   template <class Nodes, class Key>
@@ -499,6 +643,7 @@ class Lasting : Look {
   std::map<std::vector<std::string>, std::vector<NodeId>> of_words_;
   std::unordered_map<std::string, std::vector<NodeId>> as_written_;
   std::unordered_map<std::string, NodeId> last_with_values_;
+  std::unordered_map<std::string, Values> values_;  // of deeds, by their ID
   // By node: the next child of its parent that may fail.
   std::vector<std::optional<NodeId>> next_failing_;
   std::map<std::uint32_t, std::vector<Write>> writes_;  // by entry

@@ -65,8 +65,7 @@ class Restarts : Look {
       const Node& node = facts_.node(id);
       if (is_leaf(node.type)) {
         const bool counts =
-            accumulates(id) ||
-            (facts_.is_deed(id) && !only_looks(node.id) && !has_output(id));
+            accumulates(id) || (facts_.is_deed(id) && !has_output(id));
         return counts ? std::optional(id) : std::nullopt;
       }
       const Flow flow = info_of(node.type).flow;
@@ -157,27 +156,38 @@ class Restarts : Look {
         seen.push_back(
             {*deed, LocationRole::Tick, {{other, NodeStatus::Running}}});
       }
-      if (seen.empty()) continue;
+      const auto said = facts_.said(*deed, &LeafMeaning::idempotent);
+      if (seen.empty() || said == true) continue;
       std::vector<NodeId> others = {*beside, id};
       if (*deed != child) others.insert(others.begin(), *deed);
+      // What only looks, or sets what is set already, does no harm.
+      const bool only_asks = !said && may_be_harmless(*deed);
+      if (only_asks && facts_.may_run(*deed)) continue;  // asked by BT2510
       found_.push_back(
-          {.finding = {.code = "BT2211",
-                       .severity = keeps_value(*deed) ? Severity::Note
-                                                      : Severity::Warning,
+          {.finding = {.code = only_asks ? "BT2508" : "BT2211",
+                       .severity =
+                           only_asks ? Severity::Note : Severity::Warning,
                        .node = child,
                        .others = std::move(others),
                        .message = fmt::format(
-                           "{} is done again in every tick while {} runs",
-                           told(child), told(*beside)),
+                           "{} is done again in every tick while {} runs{}",
+                           told(child), told(*beside),
+                           only_asks ? ": is it as good done once?" : ""),
                        .why = fmt::format("{} begins with its first child in "
                                           "each tick",
                                           told(id)),
                        .help = fmt::format(
                            "make {} a Sequence, or put both into one below it",
                            told(id)),
-                       .repairs = done_once(id, node, i)},
+                       .repairs = done_once(id, node, i),
+                       .rank = 47},
            .shown_by = std::move(seen)});
     }
+  }
+
+  bool may_be_harmless(NodeId deed) const {
+    return keeps_value(deed) ||
+           (only_looks(facts_.node(deed).id) && !accumulates(deed));
   }
 
   // KeepRunningUntilFailure(… PubGoal goal="1;2"): the same once more in each
@@ -195,22 +205,26 @@ class Restarts : Look {
           facts_.node(facts_.parent(leaf)).children.back() == leaf &&
           is_reactive(facts_.node(facts_.parent(leaf)));
       if (is_constant && is_last && only_sends(node.id) &&
-          !facts_.may_run(leaf)) {
+          !facts_.may_run(leaf) &&
+          facts_.said(leaf, &LeafMeaning::idempotent) != true) {
         sending.push_back(leaf);
       }
     }
     for (const NodeId leaf : sending) {
       found_.push_back(
-          {.finding = {.code = "BT2211",
+          {.finding = {.code = "BT2508",
                        .severity = Severity::Note,
                        .node = leaf,
                        .others = {loop},
                        .message = fmt::format(
-                           "{} sends the same again in every tick", told(leaf)),
+                           "{} sends the same again in every tick: is that "
+                           "meant?",
+                           told(leaf)),
                        .why = fmt::format("{} goes round once a tick, and "
                                           "nothing here takes longer",
                                           told(loop)),
-                       .help = "send it once, or when it changes"},
+                       .help = "send it once, or when it changes",
+                       .rank = 24},
            .shown_by = {{leaf, LocationRole::Success}}});
     }
   }

@@ -40,10 +40,16 @@ struct TreeFinding {
 };
 
 // What the file does not say and its owner knows. Its code is of a family of
-// its own, and it is told in a line, after the findings.
+// its own, and it is told in a line, after the findings; unless it has been
+// answered, and the tree does what the answer says that it may not.
 inline bool is_question(const TreeFinding& finding) {
-  return finding.code.starts_with("BT25");
+  return finding.severity == Severity::Note && finding.code.starts_with("BT25");
 }
+// Of what a finding says that the tree does: whether it may. `said` is what the
+// owner of its leaves has answered; where that is no, `against` says what the
+// answer was, as in "`clean` may not be cut off".
+TreeFinding asked(TreeFinding finding, std::string_view question,
+                  std::optional<bool> said, std::string_view against);
 
 // A step with which a node gets to a place, while others have these statuses.
 struct Sighting {

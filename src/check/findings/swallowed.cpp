@@ -24,7 +24,6 @@ class Swallowed : Look {
     const bool is_forced = node.type == NodeType::ForceSuccess ||
                            node.type == NodeType::ForceFailure;
     if (is_forced) look_at_forced_condition(id, node);
-    if (node.type == NodeType::ForceSuccess) look_at_forced_deed(id);
     if (node.type == NodeType::RunOnce) look_at_asked_once(id);
     if (node.type == NodeType::Inverter) look_at_inverted_deed(id, node);
   }
@@ -43,7 +42,10 @@ class Swallowed : Look {
         is_script ? facts_.has_deed(id)
                   : std::ranges::all_of(
                         tried, [&](NodeId each) { return is_attempt(each); });
-    if (!are_attempts || is_remembered(tried, last)) return;
+    if (!are_attempts || is_remembered(tried, last) ||
+        facts_.said(tried, &LeafMeaning::may_be_lost) == true) {
+      return;
+    }
     Suspicion& made =
         add({.code = "BT2207",
              .node = last,
@@ -75,7 +77,7 @@ class Swallowed : Look {
     if (!answers.failure && !answers.runs) {
       return "this always succeeds, and lets the mission go on";
     }
-    if (!only_tells(of.id)) return std::nullopt;
+    if (!facts_.only_tells(last)) return std::nullopt;
     return "this only tells of it, and lets the mission go on";
   }
 
@@ -84,7 +86,7 @@ class Swallowed : Look {
     const NodeId first = facts_.leaves(child).front();
     const std::string& id = facts_.node(first).id;
     return facts_.is_deed(first) && facts_.answers(first).failure &&
-           !only_tells(id) && !only_looks(id);
+           !facts_.only_tells(first) && !only_looks(id);
   }
 
   // What a script of the attempt notes of its end is asked for later.
@@ -131,7 +133,10 @@ class Swallowed : Look {
     const NodeId leaf = facts_.core(node.children[0]);
     if (facts_.node(leaf).type != NodeType::Condition) return;
     const Answers& answers = facts_.answers(leaf);
-    if (!answers.success || !answers.failure) return;
+    if (!answers.success || !answers.failure ||
+        facts_.said(leaf, &LeafMeaning::may_be_lost) == true) {
+      return;
+    }
     const bool succeeds = node.type == NodeType::ForceSuccess;
     const LocationRole lost =
         succeeds ? LocationRole::Failure : LocationRole::Success;
@@ -215,52 +220,23 @@ class Swallowed : Look {
     return id;
   }
 
-  // ForceSuccess(CloseValve), Fill: a step that by its name the next one needs.
-  // That it may fail is written down, so this is a note.
-  void look_at_forced_deed(NodeId id) {
-    const NodeId deed = facts_.core(facts_.node(id).children[0]);
-    if (!facts_.is_deed(deed) || !facts_.answers(deed).failure) return;
-    if (!prepares(facts_.node(deed).id)) return;
-    const auto next = deed_behind(id);
-    if (!next) return;
-    Suspicion& made =
-        add({.code = "BT2207",
-             .severity = Severity::Note,
-             .node = id,
-             .others = {deed, *next},
-             .message = fmt::format("{} is ticked although {} has failed",
-                                    told(*next), told(deed)),
-             .why = "it turns the failure into success",
-             .help = fmt::format("take {} away, if {} needs {}", told(id),
-                                 told(*next), told(deed)),
-             .repairs = {{UnwrapNode{place(id)}}}});
-    made.shown_by.push_back({deed, LocationRole::Failure});
-    made.then = Consequence{id, LocationRole::Success};
-  }
-
-  // The next deed of the same Sequence.
-  std::optional<NodeId> deed_behind(NodeId id) const {
-    if (facts_.is_root(id)) return std::nullopt;
-    const Node& above = facts_.node(facts_.parent(id));
-    if (info_of(above.type).flow != Flow::OnSuccess) return std::nullopt;
-    for (std::size_t i = facts_.place_of(id) + 1; i < above.children.size();
-         ++i) {
-      if (facts_.has_deed(above.children[i])) return above.children[i];
-    }
-    return std::nullopt;
-  }
-
   // Inverter(act): its failure becomes success, and its success failure.
   void look_at_inverted_deed(NodeId id, const Node& node) {
     const NodeId deed = facts_.core(node.children[0]);
     const Answers& answers = facts_.answers(deed);
     if (!facts_.is_deed(deed) || !answers.success || !answers.failure) return;
-    if (only_looks(facts_.node(deed).id) || !facts_.is_relied_on(id)) return;
+    if (!facts_.is_relied_on(id)) return;
     TreeFinding& finding = add_inverted(id, deed).finding;
+    finding.code = "BT2507";
     finding.severity = Severity::Note;
+    finding.message = fmt::format(
+        "{} succeeds when {} fails: does that only "
+        "ask something?",
+        told(id), told(deed));
     finding.help =
         fmt::format("take {} away, if {} is no question", told(id), told(deed));
     finding.repairs = {{UnwrapNode{place(id)}}};
+    finding.rank = only_looks(facts_.node(deed).id) ? 49 : 16;
   }
 };
 

@@ -51,6 +51,7 @@ class Answered {
     look_at_guards();
     look_at_left_running();
     for (TreeFinding& each : found_) normal_.put_back(each);
+    ask_of_single_children();
     return std::move(found_);
   }
 
@@ -144,7 +145,9 @@ class Answered {
 
   // Nothing below it is done, written or waited for.
   bool only_asks(NodeId id) const {
-    if (facts_.may_run(id)) return false;
+    return !facts_.may_run(id) && changes_nothing(id);
+  }
+  bool changes_nothing(NodeId id) const {
     for (NodeId at = id; at < facts_.end_of(id); at = NodeId{index(at) + 1}) {
       const auto uses = facts_.uses_of(at);
       const bool writes = std::ranges::any_of(
@@ -344,6 +347,37 @@ class Answered {
                           std::to_string(stuck + 1)}}};
   }
 
+  // --- A Fallback with nothing to fall back to -------------------------------
+
+  // Of the tree as it is written: what is done alike has no such node any more.
+  void ask_of_single_children() {
+    const BehaviorTree& tree = normal_.written();
+    if (!is_engine(tree.profile)) return;
+    const std::vector<std::string> names = short_names(tree);
+    for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+      const Node& node = tree.nodes[n];
+      const Possibility& fails =
+          report_.nodes[n].answers[static_cast<std::size_t>(Failure)];
+      const bool is_alone = info_of(node.type).flow == Flow::OnFailure &&
+                            node.children.size() == 1 &&
+                            fails.verdict == Verdict::Holds;
+      if (!is_alone) continue;
+      const NodeId child = node.children[0];
+      add({.code = "BT2512",
+           .severity = Severity::Note,
+           .node = NodeId{n},
+           .others = {child},
+           .message = fmt::format("`{}` fails when `{}` does: is there nothing "
+                                  "else to try?",
+                                  names[n], names[index(child)]),
+           .why = "it has one child",
+           .help =
+               "give it another one, AlwaysSuccess perhaps, or take it away",
+           .run = fails.run,
+           .rank = 17});
+    }
+  }
+
   // --- Guards --------------------------------------------------------------
 
   using ByGuard = std::map<NodeId, std::vector<const StaleGuardReport*>>;
@@ -354,7 +388,9 @@ class Answered {
     ByGuard asked_once;
     for (const StaleGuardReport& report : stale_guards_) {
       for (const NodeId guard : report.guards) {
-        if (matters(guard, report.action)) {
+        const auto must = must_hold(guard, report.action);
+        if (must == false) continue;
+        if (must || matters(guard, report.action)) {
           by_guard[guard].push_back(&report);
         } else if (may_matter(guard, report.action)) {
           asked_once[guard].push_back(&report);
@@ -375,6 +411,19 @@ class Answered {
       found_.push_back(stale(guard, reports, above));
       by_sequence[above] = &found_.back();
     }
+  }
+
+  // What the owner says of it: that it has to hold while the action runs, which
+  // nobody asks then, or that it need not.
+  std::optional<bool> must_hold(NodeId guard, NodeId action) const {
+    const LeafMeaning& meaning = facts_.node(guard).contract.meaning;
+    const bool is_named = facts_.is_named(action, meaning.holds_while);
+    if (is_named || meaning.asked_once == false) {
+      return is_asked_by_another(guard, action) ? std::nullopt
+                                                : std::optional(true);
+    }
+    if (meaning.asked_once == true) return false;
+    return std::nullopt;
   }
 
   // One for what a node resumes, however many guards it has.
@@ -431,25 +480,21 @@ class Answered {
   bool may_matter(NodeId guard, NodeId action) const {
     const auto fork = fork_of(facts_.tree(), guard, action);
     const Node& above = facts_.node(fork->node);
-    if (is_round_of_loop(fork->node)) return false;
     const NodeId branch = facts_.child_with(fork->node, guard);
+    if (is_round_of_loop(fork->node) && has_one_task(branch)) return false;
     if (info_of(above.type).flow == Flow::OnFailure) {
       // Fallback(Sequence(is it so, do this), do that); not, as of what is done
-      // only until it is so, Fallback(is it so already, make it so).
-      if (!facts_.has_deed(branch) || !leads(guard, branch)) return false;
+      // only until it is so, Fallback(is it so already, make it so). What never
+      // succeeds does not make it so.
+      const NodeId done = facts_.child_with(fork->node, action);
+      const bool is_other = facts_.has_deed(branch) && leads(guard, branch);
+      if (!is_other && facts_.answers(done).success) return false;
     } else if ((info_of(above.type).flow != Flow::OnSuccess &&
                 above.type != NodeType::IfThenElse) ||
-               !only_asks(branch) || !facts_.answers(branch).failure) {
+               !changes_nothing(branch) || !facts_.answers(branch).failure) {
       return false;
     }
-    const auto alike = asking_.find(facts_.node(guard).id);
-    if (alike == asking_.end()) return true;
-    return std::ranges::none_of(alike->second, [&](NodeId other) {
-      ask_budget();
-      return other != guard &&
-             has_same_ports(facts_.node(other), facts_.node(guard)) &&
-             is_ticked_while(facts_.tree(), other, action);
-    });
+    return !is_asked_by_another(guard, action);
   }
 
   // A loop comes past the guard again as soon as the action has ended.
@@ -461,6 +506,29 @@ class Answered {
       if (flow == Flow::UntilFailure || flow == Flow::Repeats) return true;
     }
     return false;
+  }
+
+  // Of what stands behind the branch at most one action may last.
+  bool has_one_task(NodeId branch) const {
+    std::size_t count = 0;
+    const NodeId end = facts_.end_of(facts_.parent(branch));
+    for (NodeId at = facts_.end_of(branch); at < end && count < 2;
+         at = NodeId{index(at) + 1}) {
+      count += facts_.is_deed(at) && facts_.may_run(at);
+    }
+    return count < 2;
+  }
+
+  // Another node asks the same while the action runs.
+  bool is_asked_by_another(NodeId guard, NodeId action) const {
+    const auto alike = asking_.find(facts_.node(guard).id);
+    if (alike == asking_.end()) return false;
+    return std::ranges::any_of(alike->second, [&](NodeId other) {
+      ask_budget();
+      return other != guard &&
+             has_same_ports(facts_.node(other), facts_.node(guard)) &&
+             is_ticked_while(facts_.tree(), other, action);
+    });
   }
 
   // The branch begins with it: nothing is done before it is asked.
@@ -490,15 +558,15 @@ class Answered {
     const auto fork = fork_of(facts_.tree(), guard, action);
     const Node& sequence = facts_.node(fork->node);
     if (undoes_at_once(facts_.node(action).id, node.id)) return false;
+    if (is_asked_anew(fork->node)) return false;
     if (sequence.type == NodeType::IfThenElse) {
       return facts_.is_in(guard, sequence.children[0]) &&
-             facts_.is_in(action, sequence.children[1]) &&
-             !is_asked_anew(fork->node);
+             facts_.is_in(action, sequence.children[1]);
     }
     if (info_of(sequence.type).flow != Flow::OnSuccess) return false;
     // Directly below it, and not asked again by a reactive node or a loop.
     const NodeId direct = is_turned ? parent : guard;
-    return facts_.parent(direct) == fork->node && !is_asked_anew(fork->node);
+    return facts_.parent(direct) == fork->node;
   }
 
   // By a loop, or as a check among others in a reactive node.
@@ -525,7 +593,10 @@ class Answered {
         .message =
             fmt::format("{} is not asked again while {} run{}", told(guard),
                         names, reports.size() == 1 ? "s" : ""),
-        .why = fmt::format("{} resumes its running child", told(above)),
+        .why = fmt::format("{} resumes its running child{}", told(above),
+                           must_hold(guard, reports[0]->action)
+                               ? "; by a contract it has to be asked meanwhile"
+                               : ""),
         .help = facts_.node(above).type == NodeType::IfThenElse
                     ? "make it a WhileDoElse, which asks in each tick"
                     : "put it with the actions, in a node of their own, under "

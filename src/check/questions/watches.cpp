@@ -25,9 +25,11 @@ class Guards {
       : tree_(tree), writers_(tree.variables.size()) {
     for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
       const Node& node = tree.nodes[n];
-      const bool is_asked = node.type == NodeType::Condition ||
-                            node.type == NodeType::SetSV ||
-                            (node.type == NodeType::Eval && !node.assignment);
+      const bool is_asked =
+          node.type == NodeType::Condition || is_taken_for_condition(node) ||
+          node.type == NodeType::SetSV ||
+          (node.type == NodeType::Eval && !node.assignment) ||
+          (node.type == NodeType::Script && node.answers_value);
       if (is_asked) guards_.push_back(NodeId{n});
     }
   }
@@ -53,6 +55,7 @@ class Guards {
  private:
   bool may_go_stale(NodeId guard, NodeId running) {
     const Node& node = tree_.node(guard);
+    if (node.type == NodeType::Script) return is_written_while(guard, running);
     if (node.type != NodeType::Eval) return true;
     const auto terms = node.expression.terms();
     return std::ranges::any_of(terms, [&](const Term& term) {
@@ -71,6 +74,29 @@ class Guards {
            std::ranges::any_of(writers.nodes, [&](NodeId writer) {
              return is_ticked_while(tree_, writer, running);
            });
+  }
+
+  // An entry that a script asks for, while something else runs.
+  bool is_written_while(NodeId script, NodeId running) {
+    if (entry_writers_.empty()) {
+      entry_writers_.resize(tree_.entries.size());
+      for (const EntryUse& use : tree_.entry_uses) {
+        if (use.writes) entry_writers_[use.entry].push_back(use.node);
+      }
+    }
+    // By node, so those of one stand together.
+    auto use =
+        std::ranges::lower_bound(tree_.entry_uses, script, {}, &EntryUse::node);
+    for (; use != tree_.entry_uses.end() && use->node == script; ++use) {
+      if (!use->reads || use->when) continue;
+      const auto& writers = entry_writers_[use->entry];
+      const bool changes = std::ranges::any_of(writers, [&](NodeId writer) {
+        ask_budget();
+        return is_ticked_while(tree_, writer, running);
+      });
+      if (changes) return true;
+    }
+    return false;
   }
 
   struct Writers {
@@ -93,6 +119,7 @@ class Guards {
   const BehaviorTree& tree_;
   std::vector<NodeId> guards_;  // ascending
   std::vector<std::optional<Writers>> writers_;
+  std::vector<std::vector<NodeId>> entry_writers_;  // once one is asked for
 };
 
 bool may_run(const Network& network, NodeId node) {

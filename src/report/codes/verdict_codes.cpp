@@ -451,6 +451,112 @@ constexpr CodeRow kVerdicts[] = {
 </Sequence>)",
                  .models = R"(<Condition ID="IsNurseThere"/>
 <Action ID="Drive"/><Action ID="Unload"/>)"}},
+    {.code = "BT2507",
+     .name = "TakenForAnAnswer",
+     .summary = "A failure of work is taken for the answer to a question.",
+     .description = "An Inverter around an action makes its failure a success; "
+                    "a Fallback goes on as if a condition had failed when what "
+                    "is done about it does.",
+     .help = "Retry what may fail, or end the mission when it does.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<Sequence>
+  <Inverter>
+    <FindPerson/>
+  </Inverter>
+  <CrossRoom/>
+</Sequence>)",
+                 .models =
+                     R"(<Action ID="FindPerson"/><Action ID="CrossRoom"/>)"}},
+    {.code = "BT2508",
+     .name = "MayBeDoneAgain",
+     .summary = "Something that may do no harm is done again in every tick.",
+     .description = "A reactive node begins with its first child in each tick. "
+                    "What only looks, or sets what is set already, may well be "
+                    "done so.",
+     .help = "If once is enough, make the node a Sequence.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<ReactiveSequence>
+  <IsMode mode="tour" value="on"/>
+  <PubMode mode="tour" value="on"/>
+  <Drive/>
+</ReactiveSequence>)",
+                 .models = R"(<Condition ID="IsMode">
+<input_port name="mode"/><input_port name="value"/></Condition>
+<Condition ID="PubMode">
+<input_port name="mode"/><input_port name="value"/></Condition>
+<Action ID="Drive"/>)"}},
+    {.code = "BT2509",
+     .name = "TwoCommands",
+     .summary = "Two branches may do the same at once, with different values.",
+     .description = "Both children of a Parallel have a leaf of one type, and "
+                    "give it different values. On a robot the second command "
+                    "often takes the device from the first.",
+     .help = "Let one side wait for the other, if both command one device.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<Parallel>
+  <MoveArm to="shelf"/>
+  <MoveArm to="table"/>
+</Parallel>)",
+                 .models = R"(<Action ID="MoveArm">
+<input_port name="to"/></Action>)"}},
+    {.code = "BT2510",
+     .name = "GuardMayRun",
+     .summary =
+         "What is asked in every tick halts the work when it runs itself.",
+     .description = "A reactive node ticks its first child in each tick. While "
+                    "that answers running, what stands behind it is halted.",
+     .help = "If it always answers at once, say it by a contract: `:returns "
+             "(success failure)`.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<ReactiveFallback>
+  <Sequence>
+    <LookAround found="{found}"/>
+    <IsTargetThere found="{found}"/>
+  </Sequence>
+  <Explore/>
+</ReactiveFallback>)",
+                 .models = R"(<Action ID="LookAround">
+<output_port name="found"/></Action>
+<Condition ID="IsTargetThere"><input_port name="found"/></Condition>
+<Action ID="Explore"/>)"}},
+    {.code = "BT2511",
+     .name = "FailedRound",
+     .summary = "A loop ends for good with its first failed round.",
+     .description = "A Repeat fails when its child does, and nothing around it "
+                    "tries again.",
+     .help = "Put a ForceSuccess around what may fail in a round.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<Repeat num_cycles="8">
+  <VisitShelf/>
+</Repeat>)",
+                 .models = R"(<Action ID="VisitShelf"/>)"}},
+    {.code = "BT2512",
+     .name = "NothingElse",
+     .summary = "A Fallback has one child, and nothing to fall back to.",
+     .description = "It fails as its child does.",
+     .help = "Give it a second child, or take it away.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<Fallback>
+  <BringBack/>
+</Fallback>)",
+                 .models = R"(<Action ID="BringBack"/>)"}},
+    {.code = "BT2513",
+     .name = "LeftAtAValue",
+     .summary = "A failure leaves something as it was set on the way.",
+     .description = "A leaf is given a value, and later the one that it had "
+                    "before; or its script sets an entry that the script of a "
+                    "later leaf sets back. A failure in between leaves out the "
+                    "second.",
+     .help = "Set it back on the way out of a failure, too.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<Sequence>
+  <Gripper action="open"/>
+  <Gripper action="close"/>
+  <MoveArm/>
+  <Gripper action="open"/>
+</Sequence>)",
+                 .models = R"(<Action ID="Gripper">
+<input_port name="action"/></Action><Action ID="MoveArm"/>)"}},
     {.code = "BT9002",
      .name = "InternalError",
      .summary = "An internal error of btcheck.",
