@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "batch/answer.hpp"
 #include "batch/command.hpp"
 #include "batch/entries/entries.hpp"
 #include "batch/leaves.hpp"
@@ -259,6 +260,7 @@ constexpr auto kRuns = std::to_array<RunOf>({
     {Command::Run, run_run},
     {Command::Monitor, run_monitor},
     {Command::Leaves, run_leaves},
+    {Command::Answer, run_answer},
 });
 static_assert(is_indexed(kRuns, &RunOf::command));
 

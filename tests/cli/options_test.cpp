@@ -286,7 +286,8 @@ TEST_CASE("a refusal says what was meant, or where an option belongs") {
        "--prop belongs to check, lint, export, trace, run and monitor",
        "btcheck TREE --prop RULES.ltl"},
       {{"export", "t.btf", "--threads", "2"},
-       "--threads belongs to check, batch, space, demo and init",
+       "--threads belongs to check, batch, space, demo, init and "
+       "answer",
        "btcheck export --help lists what export takes"},
       {{"t.btf", "--tick"},
        "--tick needs a value",

@@ -45,11 +45,12 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SearchProgress, states, expanded,
                                    transitions, depth, bytes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Place, file, span)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RelatedPlace, place, text)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedReply, words, contracts, comment)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ToldStep, kind, text, time, is_chosen, place)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ToldRun, steps, unit, time, loop)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Finding, about, code, severity, title,
                                    message, place, node, related, run, repair,
-                                   identity, told, trace, page)
+                                   answers, identity, told, trace, page)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedProperty, name, title, text, tags,
                                    place, verdict, expectation, is_met,
                                    is_vacuous, note, reason, error, stopped,

@@ -40,7 +40,8 @@ enum class Command : std::uint8_t {
   Man,
   Run,
   Monitor,
-  Leaves
+  Leaves,
+  Answer
 };
 
 // The tree that `btcheck -` reads.

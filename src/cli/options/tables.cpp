@@ -163,6 +163,18 @@ constexpr CommandRow kCommands[] = {
          "kind, the ports that are seen, and where it stands. As XML it is "
          "read by --models, and of itself beside the trees; as contracts by "
          "--leaves."},
+    {.command = Command::Answer,
+     .word = "answer",
+     .argument = ArgumentKind::Batches,
+     .shown = "FOLDER|TREE...",
+     .missing = "no folder and no tree",
+     .example = "btcheck answer FOLDER",
+     .summary = "answer the questions of the findings, for a whole project",
+     .description =
+         "Asks what a check could not know, question by question, and keeps "
+         "the answers as contracts of leaves, in the file of --leaves or in "
+         "answers.leaves. What fits an answer is not asked again, in no tree "
+         "of the project; what does not is a warning."},
     {.command = Completions,
      .word = "completions",
      .argument = ArgumentKind::Shell,
@@ -178,23 +190,30 @@ constexpr CommandRow kCommands[] = {
      .description = "Prints the man page, as troff.",
      .is_hidden = true}};
 
-constexpr CommandSet kReadsTrees = {Check,  Batch,    Lint, Space,
-                                    Export, Simulate, Init, Conform};
-constexpr CommandSet kReadsModels = {Check,    Batch, Lint,    Space, Export,
-                                     Simulate, Init,  Conform, Leaves};
+constexpr CommandSet kReadsTrees = {Check, Batch,   Lint,
+                                    Space, Export,  Simulate,
+                                    Init,  Conform, Command::Answer};
+constexpr CommandSet kReadsModels = {Check,  Batch,          Lint, Space,
+                                     Export, Simulate,       Init, Conform,
+                                     Leaves, Command::Answer};
 // An XML tree has an executor of its own.
 constexpr CommandSet kReadsBtf = {Check,    Batch, Lint,    Space, Export,
                                   Simulate, Init,  Conform, Run};
-constexpr CommandSet kHasSettings = {Check,    Batch, Lint,    Space, Export,
-                                     Simulate, Init,  Conform, Run,   Leaves};
+constexpr CommandSet kHasSettings = {Check,  Batch,    Lint,           Space,
+                                     Export, Simulate, Init,           Conform,
+                                     Run,    Leaves,   Command::Answer};
 constexpr CommandSet kFinds = {Check, Batch, Lint};
-constexpr CommandSet kSearches = {Check, Batch, Space, Demo, Init};
-constexpr CommandSet kCountsStates = {Check, Batch, Space, Demo, Init, Conform};
-constexpr CommandSet kLimited = {Check, Batch,    Lint, Space, Export,  Trace,
-                                 Demo,  Simulate, Init, Run,   Conform, Leaves};
+constexpr CommandSet kSearches = {Check, Batch, Space,
+                                  Demo,  Init,  Command::Answer};
+constexpr CommandSet kCountsStates = {Check, Batch,   Space,          Demo,
+                                      Init,  Conform, Command::Answer};
+constexpr CommandSet kLimited = {Check,   Batch,  Lint,           Space, Export,
+                                 Trace,   Demo,   Simulate,       Init,  Run,
+                                 Conform, Leaves, Command::Answer};
 constexpr CommandSet kEvery = {
-    Check, Batch, Lint,    Space, Export,  Trace,       Simulate, Explain,
-    Demo,  Init,  Conform, Run,   Monitor, Completions, Man,      Leaves};
+    Check,    Batch,       Lint, Space,  Export,         Trace,
+    Simulate, Explain,     Demo, Init,   Conform,        Run,
+    Monitor,  Completions, Man,  Leaves, Command::Answer};
 
 constexpr std::string_view kProfileNames =
     "paper btcpp-3.5.1 btcpp-3.5 btcpp-3.6 btcpp-3.7 btcpp-3.8 btcpp-4.0 "
@@ -482,6 +501,13 @@ constexpr OptionRow kOptions[] = {
      .help = "the file to write",
      .commands = {Trace, Init, Leaves},
      .first = {Trace, Init, Leaves}},
+    {.name = "-o",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .fallback = "that of --leaves, else answers.leaves",
+     .help = "the file of contracts in which the answers are kept",
+     .commands = {Command::Answer},
+     .first = {Command::Answer}},
     {.name = "-o",
      .value = "FILE",
      .names = ValueKind::File,

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "check/replies.hpp"
 #include "model/tree/node_types.hpp"
 #include "report/codes/codes.hpp"
 #include "report/text/report.hpp"
@@ -143,6 +144,14 @@ class Findings {
       finding.run = told_run(tree_, *file_.network, *found.run);
     }
     finding.repair = found.repair;
+    for (const QuestionReply& each : replies_to(tree_, found)) {
+      ReportedReply& answer = finding.answers.emplace_back();
+      answer.words = each.words;
+      for (const LeafClause& clause : each.clauses) {
+        answer.contracts.push_back(contract_of(clause));
+      }
+      if (each.clauses.empty()) answer.comment = allowing(found);
+    }
     finding.told = finding_text(result_, file_, found, Layout());
     finding.trace = trace;
     identify(finding, others);

@@ -102,6 +102,12 @@ OrderedJson finding_json(const Report& report, const Finding& finding) {
     json["related"].push_back(std::move(place));
   }
   json["repair"] = repair_json(finding.repair);
+  json["answers"] = OrderedJson::array();
+  for (const ReportedReply& each : finding.answers) {
+    json["answers"].push_back({{"words", each.words},
+                               {"contracts", each.contracts},
+                               {"comment", word(each.comment)}});
+  }
   return json;
 }
 

@@ -51,6 +51,14 @@ struct RelatedPlace {
   std::string text;  // what is there
 };
 
+// What a question can be answered with: contracts of leaves to write down, or,
+// where there are none, a comment before the node.
+struct ReportedReply {
+  std::string words;  // "that may be cut off"
+  std::vector<std::string> contracts;
+  std::string comment;
+};
+
 // Something to look at: a property that is not as expected, a fault of the
 // tree, a remark on it, or a mistake in an input.
 struct Finding {
@@ -70,6 +78,7 @@ struct Finding {
   std::vector<RelatedPlace> related;
   std::optional<ToldRun> run;
   std::optional<CheckedRepair> repair;
+  std::vector<ReportedReply> answers;  // of a question
   // Different for each finding of a file, and the same when lines have moved.
   std::string identity;
   std::string told;   // as the text of a check tells it; "" of diagnostics

@@ -396,7 +396,8 @@ std::string questions_text(const CheckResult& result, const CheckedFile& file,
   }
   if (count > kMost) text += fmt::format("  and {} more: -v\n", count - kMost);
   if (text.empty() || layout.detail == Detail::EveryStep) return text;
-  return "\nQuestions that you can answer (-v shows the run)\n" + text;
+  return "\nQuestions that `btcheck answer` asks you (-v shows the run)\n" +
+         text;
 }
 
 std::string findings_text(const CheckResult& result, const CheckedFile& file,
