@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "batch/entries/entries.hpp"
+#include "check/init/leaf_uses.hpp"
 #include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
@@ -42,9 +43,11 @@ class Complaints {
   bool is_empty_ = true;
 };
 
-// Nothing where the entry is read; only XML trees have leaves to describe.
+// Nothing where the entry is read; only XML trees have leaves to describe. What
+// their uses show is added to `uses` where that is asked for.
 std::vector<Diagnostic> add_leaves_of(const BatchEntry& entry,
-                                      const Options& all, UnknownLeaves& to) {
+                                      const Options& all, UnknownLeaves& to,
+                                      LeafUses* uses) {
   if (has_error(entry.diagnostics)) return entry.diagnostics;
   if (!is_xml_name(entry.input)) return {};
   const Stage stage("leaves were looked for");
@@ -53,6 +56,11 @@ std::vector<Diagnostic> add_leaves_of(const BatchEntry& entry,
   std::vector<Diagnostic> found;
   const auto inputs = gather_inputs(entry.input, {}, own, found);
   if (!inputs) return found;
+  if (uses != nullptr) {
+    const auto read =
+        read_tree(inputs->tree.name, inputs->tree.text, inputs->tree.reading);
+    if (read.value) uses->add(*read.value);
+  }
   return add_unknown_leaves(inputs->tree.name, inputs->tree.text,
                             inputs->tree.reading, to);
 }
@@ -82,6 +90,8 @@ ExitCode run_leaves(const Options& options) {
     return ExitCode::BadInput;
   }
   UnknownLeaves leaves;
+  LeafUses uses;
+  const bool as_contracts = asks_for_contracts(options);
   Complaints complaints(options);
   for (const std::string& source : options.inputs) {
     if (!source.ends_with(".btf") || !names_tree(source)) continue;
@@ -90,13 +100,16 @@ ExitCode run_leaves(const Options& options) {
         "a .btf tree has its contracts in its own file")});
   }
   for (const BatchEntry& entry : gather_batch(options)) {
-    complaints.take(add_leaves_of(entry, options, leaves));
+    complaints.take(
+        add_leaves_of(entry, options, leaves, as_contracts ? &uses : nullptr));
   }
   ExitCode code = complaints.is_empty() ? ExitCode::Met : ExitCode::BadInput;
   const std::size_t count = leaves.types().size();
-  if (count > 0) {
+  const std::string proposals = uses.proposals();
+  if (count > 0 || !proposals.empty()) {
     const std::string text =
-        asks_for_contracts(options) ? leaves.contracts() : leaves.xml();
+        as_contracts ? (count > 0 ? leaves.contracts() : "") + proposals
+                     : leaves.xml();
     code = worst_of(code, write_output(options.output, harmless(text)));
   }
   if (!options.is_quiet && (count > 0 || complaints.is_empty())) {

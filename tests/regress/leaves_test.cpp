@@ -148,4 +148,37 @@ TEST_CASE("the trees that can be read are read") {
   CHECK(project.run("leaves nowhere.xml").code == 2);
 }
 
+TEST_CASE("what most trees do is proposed") {
+  const Project project;
+  const auto tree = [](const std::string& node, const std::string& report) {
+    return "<root BTCPP_format=\"4\"><BehaviorTree ID=\"T\"><" + node +
+           "><IsFree/><Drive/>" + report + "</" + node +
+           "></BehaviorTree><TreeNodesModel><Condition ID=\"IsFree\"/>"
+           "<Action ID=\"Drive\"/><Action ID=\"Report\"/></TreeNodesModel>"
+           "</root>";
+  };
+  const std::string forgiven = "<ForceSuccess><Report/></ForceSuccess>";
+  fs::create_directory(project.path() / "own");
+  project.write("own/a.xml", tree("ReactiveSequence", forgiven));
+  project.write("own/b.xml", tree("ReactiveSequence", forgiven));
+  project.write("own/c.xml", tree("Sequence", "<Report/>"));
+  const std::string said = project.run("leaves own --to leaves").text;
+  CHECK(has(said,
+            "; In 2 of 3 places IsFree is asked as long as Drive runs:\n"
+            "; (defcondition IsFree :holds-while (Drive))\n"));
+  CHECK(has(said,
+            "; In 2 of 3 places nobody hears of a failure of Report:\n"
+            "; (defaction Report :may-be-lost)\n"));
+  // What is proposed is a comment until somebody takes its sign away.
+  CHECK(
+      has(project.run("leaves own -o own/p.leaves").text, "nothing is known"));
+  CHECK(!has(project.run("own/c.xml --leaves own/p.leaves").text, "warning["));
+  std::string text = project.text_of("own/p.leaves");
+  const auto at = text.find("; (defcondition IsFree");
+  REQUIRE(at != text.npos);
+  project.write("own/p.leaves", text.erase(at, 2));
+  CHECK(has(project.run("own/c.xml --leaves own/p.leaves").text,
+            "warning[BT2205]: `IsFree` is not asked again while `Drive` runs"));
+}
+
 }  // namespace btcheck::leaves_test
