@@ -152,8 +152,8 @@ TEST_CASE("what most trees do is proposed") {
   const Project project;
   const auto tree = [](const std::string& node, const std::string& report) {
     return "<root BTCPP_format=\"4\"><BehaviorTree ID=\"T\"><" + node +
-           "><IsFree/><Drive/>" + report + "</" + node +
-           "></BehaviorTree><TreeNodesModel><Condition ID=\"IsFree\"/>"
+           "><IsAhead/><Drive/>" + report + "</" + node +
+           "></BehaviorTree><TreeNodesModel><Condition ID=\"IsAhead\"/>"
            "<Action ID=\"Drive\"/><Action ID=\"Report\"/></TreeNodesModel>"
            "</root>";
   };
@@ -164,8 +164,8 @@ TEST_CASE("what most trees do is proposed") {
   project.write("own/c.xml", tree("Sequence", "<Report/>"));
   const std::string said = project.run("leaves own --to leaves").text;
   CHECK(has(said,
-            "; In 2 of 3 places IsFree is asked as long as Drive runs:\n"
-            "; (defcondition IsFree :holds-while (Drive))\n"));
+            "; In 2 of 3 places IsAhead is asked as long as Drive and Report "
+            "run:\n; (defcondition IsAhead :holds-while (Drive Report))\n"));
   CHECK(has(said,
             "; In 2 of 3 places nobody hears of a failure of Report:\n"
             "; (defaction Report :may-be-lost)\n"));
@@ -174,11 +174,12 @@ TEST_CASE("what most trees do is proposed") {
       has(project.run("leaves own -o own/p.leaves").text, "nothing is known"));
   CHECK(!has(project.run("own/c.xml --leaves own/p.leaves").text, "warning["));
   std::string text = project.text_of("own/p.leaves");
-  const auto at = text.find("; (defcondition IsFree");
+  const auto at = text.find("; (defcondition IsAhead");
   REQUIRE(at != text.npos);
   project.write("own/p.leaves", text.erase(at, 2));
   CHECK(has(project.run("own/c.xml --leaves own/p.leaves").text,
-            "warning[BT2205]: `IsFree` is not asked again while `Drive` runs"));
+            "warning[BT2205]: `IsAhead` is not asked again while `Drive` and "
+            "`Report` run"));
 }
 
 }  // namespace btcheck::leaves_test

@@ -9,6 +9,7 @@
 #include "model/tree/leaf_names.hpp"
 #include "model/tree/node_types.hpp"
 #include "text/budget.hpp"
+#include "text/findings.hpp"
 
 namespace btcheck {
 namespace {
@@ -89,12 +90,22 @@ std::string LeafUses::proposals() const {
     text += fmt::format("; In {} of {} places {}:\n; {}\n", count.yes,
                         count.all, what, contract);
   };
-  for (const auto& [pair, count] : asked_) {
-    const auto& [condition, action] = pair;
+  // The actions of a condition with the same count in one.
+  for (auto at = asked_.begin(); at != asked_.end();) {
+    const std::string& condition = at->first.first;
+    const Count count = at->second;
+    std::vector<std::string> actions;
+    for (; at != asked_.end() && at->first.first == condition &&
+           at->second == count;
+         ++at) {
+      actions.push_back(at->first.second);
+    }
     if (!count.is_mostly_so()) continue;
-    propose(
-        count, fmt::format("{} is asked as long as {} runs", condition, action),
-        fmt::format("(defcondition {} :holds-while ({}))", condition, action));
+    propose(count,
+            fmt::format("{} is asked as long as {} run{}", condition,
+                        enumerated(actions), actions.size() == 1 ? "s" : ""),
+            fmt::format("(defcondition {} :holds-while ({}))", condition,
+                        fmt::join(actions, " ")));
   }
   for (const auto& [action, count] : forgiven_) {
     if (!count.is_mostly_so()) continue;
@@ -102,7 +113,7 @@ std::string LeafUses::proposals() const {
             fmt::format("(defaction {} :may-be-lost)", action));
   }
   if (text.empty()) return {};
-  return "\n; What the trees do in most places. Where it is meant, take the\n"
+  return "; What the trees do in most places. Where it is meant, take the\n"
          "; comment sign away: what does otherwise is then a warning.\n" +
          text;
 }

@@ -29,6 +29,7 @@ class LeafUses {
     std::size_t all = 0;
 
     bool is_mostly_so() const { return yes >= 2 && 2 * yes > all; }
+    bool operator==(const Count&) const = default;
   };
   void add_guards(const BehaviorTree& tree, const Node& above);
 
