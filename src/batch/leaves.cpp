@@ -107,10 +107,11 @@ ExitCode run_leaves(const Options& options) {
   const std::size_t count = leaves.types().size();
   const std::string proposals = uses.proposals();
   if (count > 0 || !proposals.empty()) {
-    const std::string text = !as_contracts ? leaves.xml()
-                             : count == 0
-                                 ? proposals
-                                 : leaves.contracts() + "\n" + proposals;
+    const std::string text =
+        !as_contracts ? leaves.xml()
+        : count == 0
+            ? proposals
+            : leaves.contracts() + (proposals.empty() ? "" : "\n" + proposals);
     code = worst_of(code, write_output(options.output, harmless(text)));
   }
   if (!options.is_quiet && (count > 0 || complaints.is_empty())) {

@@ -227,6 +227,24 @@ TEST_CASE("two commands, a guard that runs, a loop that ends, one child") {
   CHECK(asked_in("<Fallback><AlwaysSuccess/></Fallback>", kThree) == "");
 }
 
+TEST_CASE("what nothing in the tree writes") {
+  const std::string models =
+      "<Action ID=\"Plan\"><output_port name=\"way\"/></Action>"
+      "<Action ID=\"Follow\"><input_port name=\"way\"/></Action>"
+      "<Action ID=\"Drive\"><input_port name=\"way\"/></Action>";
+  const auto tree = [](const std::string& more) {
+    return "<Sequence><Plan way=\"{there}\"/><Follow way=\"{there}\"/>" + more +
+           "</Sequence>";
+  };
+  CHECK(asked_in(tree("<Follow way=\"{way}\"/>"), models) == "BT2514 Follow?");
+  CHECK(asked_in(tree("<Follow way=\"{there}\"/>"), models) == "");
+  // Another port, or one of several that read it: the program may well write
+  // it.
+  CHECK(asked_in(tree("<Drive way=\"{way}\"/>"), models) == "");
+  CHECK(asked_in(tree("<Follow way=\"{way}\"/><Drive way=\"{way}\"/>"),
+                 models) == "");
+}
+
 TEST_CASE("a guard that takes time, and what can never go on") {
   const std::string body =
       "<ReactiveSequence name=\"r\"><A/><B/></ReactiveSequence>";

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // A port reads an entry that a node of the tree writes, on a run on which that
-// node has not been ticked yet (BT2217).
+// node has not been ticked yet (BT2217); or one that nothing writes, where the
+// same port of another leaf reads what the tree has written (BT2514).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <string_view>
 #include <unordered_set>
 #include <vector>
@@ -33,6 +35,15 @@ class Unwritten : Look {
       if (use.reads && use.is_port) uses.readers.push_back(use.node);
     }
     for (const auto& [entry, uses] : by_entry) look_at(entry, uses);
+    for (const auto& [entry, uses] : by_entry) {
+      // Of ports that no model tells of both ways are possible.
+      const bool is_foreign =
+          uses.readers.size() == 1 &&
+          std::ranges::all_of(uses.writers, [&](NodeId writer) {
+            return writer == uses.readers[0];
+          });
+      if (is_foreign) ask_for_writer(entry, uses.readers[0], by_entry);
+    }
   }
 
  private:
@@ -54,6 +65,58 @@ class Unwritten : Look {
       add(entry, reader, uses);
       return;
     }
+  }
+
+  // FollowPath path="{way}", which a planner writes, and FollowPath
+  // path="{path}": perhaps the program does.
+  void ask_for_writer(std::uint32_t entry, NodeId reader,
+                      const std::map<std::uint32_t, Uses>& by_entry) {
+    const std::string& name = facts_.tree().entries[entry];
+    const Node& node = facts_.node(reader);
+    if (begins_with_value(entry) || !is_leaf(node.type)) return;
+    const auto port =
+        std::ranges::find(node.arguments, braced(name), &Argument::value);
+    if (port == node.arguments.end()) return;
+    for (const auto& [other, uses] : by_entry) {
+      const auto writer = std::ranges::find_if(uses.writers, [&](NodeId each) {
+        return facts_.node(each).id != node.id;
+      });
+      if (writer == uses.writers.end()) continue;
+      const std::string value = braced(facts_.tree().entries[other]);
+      for (const NodeId alike : uses.readers) {
+        ask_budget();
+        const bool is_given = gives(facts_.node(alike), node.id, *port, value);
+        if (!is_given) continue;
+        Look::add(
+            {.code = "BT2514",
+             .severity = Severity::Note,
+             .node = reader,
+             .others = {alike, *writer},
+             .message = fmt::format("{} reads `{}`, which nothing in the tree "
+                                    "writes: does the program?",
+                                    told(reader), name),
+             .why = fmt::format("by the same port {} reads `{}`, which {} "
+                                "writes",
+                                told(alike), facts_.tree().entries[other],
+                                told(*writer)),
+             .help = fmt::format("if not, write `{}` here, or what was meant",
+                                 facts_.tree().entries[other]),
+             .rank = 21})
+            .shown_by.push_back({reader, LocationRole::Tick});
+        return;
+      }
+    }
+  }
+
+  static std::string braced(const std::string& entry) {
+    return "{" + entry + "}";
+  }
+  static bool gives(const Node& node, const std::string& type,
+                    const Argument& port, const std::string& value) {
+    return node.id == type &&
+           std::ranges::any_of(node.arguments, [&](const Argument& each) {
+             return each.key == port.key && each.value == value;
+           });
   }
 
   // A file beside the tree says what the program puts there at first.

@@ -557,6 +557,23 @@ constexpr CodeRow kVerdicts[] = {
 </Sequence>)",
                  .models = R"(<Action ID="Gripper">
 <input_port name="action"/></Action><Action ID="MoveArm"/>)"}},
+    {.code = "BT2514",
+     .name = "ReadFromOutside",
+     .summary = "A port reads an entry that nothing in the tree writes.",
+     .description = "Another leaf of the same type reads by the same port what "
+                    "the tree has written. The program may write this one; or "
+                    "the other was meant.",
+     .help = "Write the entry that was meant, if the program does not write "
+             "this one.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<Sequence>
+  <Plan way="{way_there}"/>
+  <Follow way="{way_there}"/>
+  <Follow way="{way}"/>
+</Sequence>)",
+                 .models =
+                     R"(<Action ID="Plan"><output_port name="way"/></Action>
+<Action ID="Follow"><input_port name="way"/></Action>)"}},
     {.code = "BT9002",
      .name = "InternalError",
      .summary = "An internal error of btcheck.",
