@@ -439,7 +439,18 @@ TEST_CASE("what a leaf means is put together from all that is said of it") {
   const LeafContract& free = read.leaf("first/IsFree::5");
   CHECK(free.meaning.asked_once == false);
   CHECK(free.meaning.holds_while == std::vector<std::string>{"Drive"});
-  // It does not say what a leaf answers, nor that nothing else may say it.
+  // It does not say what a leaf answers, nor that nothing else may say it: what
+  // no model tells of is what it was.
+  const std::string open =
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"T\"><Look/></BehaviorTree>"
+      "</root>";
+  const Contracted meant =
+      contracted(open, {"(defcondition Look :asked-once)"});
+  CHECK(meant.shown == "");
+  CHECK(meant.leaf("Look::1").may_run);
+  CHECK(meant.leaf("Look::1").meaning.asked_once == true);
+  CHECK(meant.node("Look::1").is_guessed);
+  CHECK(!contracted(open, {"(defcondition Look)"}).leaf("Look::1").may_run);
   CHECK(contracted(kTree, {"(defaction Drive :may-be-lost)",
                            "(defaction Drive :returns (success))"})
             .shown == "");

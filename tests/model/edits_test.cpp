@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <random>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "model/btcpp/xml_text.hpp"
+#include "model/edits/contract_text.hpp"
 #include "model/edits/edited_files.hpp"
+#include "model/tree/node_types.hpp"
 #include "text/repair.hpp"
 
 namespace btcheck::edits_test {
@@ -328,6 +331,43 @@ TEST_CASE("random XML: what is read after an edit is what was meant") {
     ++edits;
   }
   CHECK(edits > 1500);
+}
+
+TEST_CASE("a contract says one thing more") {
+  const auto with = [](std::string_view text, NodeType leaf, std::string name,
+                       std::string keyword, std::string value) {
+    return with_clause(
+        text, {leaf, std::move(name), std::move(keyword), std::move(value)});
+  };
+  const NodeType action = NodeType::Action;
+  CHECK(with("", action, "Drive", "may-be-lost", "") ==
+        "(defaction Drive :may-be-lost)\n");
+  CHECK(with("; mine", action, "\"a b\"", "may-stay", "no") ==
+        "; mine\n(defaction \"a b\" :may-stay no)\n");
+  // In the contract that is there, whatever stands around it.
+  const std::string text =
+      "; (defaction Drive)\n"
+      "(defcondition Drive :asked-once)\n"
+      "(DefAction \"Drive\" ; ours\n  :returns (success running)\n"
+      "  ; the end\n)\n(defaction Other)\n";
+  CHECK(with(text, action, "Drive", "idempotent", "") ==
+        "; (defaction Drive)\n"
+        "(defcondition Drive :asked-once)\n"
+        "(DefAction \"Drive\" ; ours\n  :returns (success running)\n"
+        "  ; the end\n :idempotent)\n(defaction Other)\n");
+  // What was said otherwise is replaced, and a list has more in it.
+  CHECK(with("(defaction A :may-stay no :idempotent)", action, "A", "may-stay",
+             "") == "(defaction A :may-stay :idempotent)");
+  CHECK(with("(defaction A :may-stay :idempotent)", action, "A", "may-stay",
+             "no") == "(defaction A :may-stay no :idempotent)");
+  CHECK(with("(defaction A :returns (success running))", action, "A", "returns",
+             "(success)") == "(defaction A :returns (success))");
+  const NodeType condition = NodeType::Condition;
+  CHECK(with("(defcondition C :holds-while A)", condition, "C", "holds-while",
+             "(A \"b c\")") == "(defcondition C :holds-while (A \"b c\"))");
+  CHECK(with("(defcondition C :holds-while (A ; a\n B) :asked-once)", condition,
+             "C", "holds-while",
+             "(B D)") == "(defcondition C :holds-while (A B D) :asked-once)");
 }
 
 }  // namespace

@@ -134,12 +134,15 @@ void LeafRules::apply(std::uint32_t instance, NodeScripts& scripts,
   if (const auto meant = meant_.find(instance); meant != meant_.end()) {
     for (const LeafRule* each : meant->second) {
       add_meaning(each->meaning, contract.meaning);
-      if (rule == nullptr) take_type(*each, leaf);
     }
   }
   if (rule == nullptr) return;
   leaf.is_guessed = false;
-  take_type(*rule, leaf);
+  if (leaf.type != rule->leaf) {
+    leaf.type = rule->leaf;
+    contract.may_run = false;
+    contract.memory = LeafMemory::None;
+  }
   if (rule->results) take_results(*rule->results, contract);
   if (rule->memory) contract.memory = *rule->memory;
   if (!rule->decision.code.empty()) take_decision(contract);
@@ -178,15 +181,6 @@ void LeafRules::apply(std::uint32_t instance, NodeScripts& scripts,
              contract.success_program);
   set_effect(rule->on_failure, contract.on_failure, contract.failure_leaves,
              contract.failure_program);
-}
-
-// That it is a condition, of a leaf that was taken for an action.
-void LeafRules::take_type(const LeafRule& rule, Node& leaf) {
-  if (rule.leaf != NodeType::Condition || leaf.type == rule.leaf) return;
-  leaf.is_guessed = false;
-  leaf.type = rule.leaf;
-  leaf.contract.may_run = false;
-  leaf.contract.memory = LeafMemory::None;
 }
 
 void LeafRules::check(const LeafRule& rule, const Node& leaf) {

@@ -110,7 +110,6 @@ class LeafRules {
  private:
   void declare(const DeclaredEntry& declared);
   void choose();
-  static void take_type(const LeafRule& rule, Node& leaf);
   void check(const LeafRule& rule, const Node& leaf);
   void check_type(const DeclaredEntry& declared, const NodeScripts& scripts);
   void check_entries(std::uint32_t file, std::span<const NamedEntry> entries,
