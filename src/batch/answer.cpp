@@ -46,18 +46,20 @@ class Session {
  public:
   explicit Session(const Options& options) : options_(options) {}
 
-  // One tree, and once more where an answer may have changed what it does:
-  // false where nothing more is to be asked.
+  // The questions of one tree; false where nothing more is to be asked.
   bool ask(const BatchEntry& entry) {
-    bool goes_on = true;
-    later_.clear();
-    do {
-      changes_behavior_ = false;
-      open_ = 0;
-      goes_on = ask_once(entry);
-    } while (goes_on && changes_behavior_);
+    changes_behavior_ = changes_text_ = false;
+    open_ = 0;
+    return ask_once(entry);
+  }
+  // Whether an answer may have changed what the tree does, and so what is
+  // asked.
+  bool is_to_ask_again() const { return changes_behavior_; }
+  // A comment was written: what was read of the files is out of date.
+  bool has_changed_texts() const { return changes_text_; }
+  void leave_tree() {
     left_ += open_;
-    return goes_on;
+    later_.clear();
   }
 
   void tell_end() const {
@@ -269,6 +271,7 @@ class Session {
       return true;
     }
     const std::string before = text.substr(*begin, *word - 1 - *begin);
+    changes_text_ = true;
     const bool is_first = before.find_first_not_of(" \t") == before.npos;
     if (is_first) lines.push_back(node.span.line);
     return write(name,
@@ -297,6 +300,7 @@ class Session {
   std::size_t open_ = 0;
   std::set<std::pair<std::string_view, NodeId>> later_;
   bool changes_behavior_ = false;
+  bool changes_text_ = false;
   bool is_over_ = false;
 };
 
@@ -317,13 +321,20 @@ ExitCode run_answer(const Options& options) {
     code = ExitCode::BadInput;
   }
   Session session(options);
-  for (const BatchEntry& entry : gather_batch(options)) {
-    if (has_error(entry.diagnostics)) {
-      show(options, entry.diagnostics);
+  std::vector<BatchEntry> entries = gather_batch(options);
+  bool goes_on = true;
+  for (std::size_t i = 0; i < entries.size() && goes_on; ++i) {
+    if (has_error(entries[i].diagnostics)) {
+      show(options, entries[i].diagnostics);
       code = worst_of(code, ExitCode::BadInput);
       continue;
     }
-    if (is_xml_name(entry.input) && !session.ask(entry)) break;
+    if (!is_xml_name(entries[i].input)) continue;
+    do {
+      goes_on = session.ask(entries[i]);
+      if (session.has_changed_texts()) entries = gather_batch(options);
+    } while (goes_on && session.is_to_ask_again() && i < entries.size());
+    session.leave_tree();
   }
   session.tell_end();
   return worst_of(code, session.code());

@@ -165,6 +165,32 @@ TEST_CASE("no answer, and answers that there are not") {
   CHECK(has(project.run("answer t.btf"), "error[BT1636]"));
 }
 
+// Each comment stands before its node, whatever was answered before.
+TEST_CASE("comments, and answers that ask again, in one file") {
+  const Workspace project;
+  const std::string tree =
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"T\">\n"
+      "  <Sequence>\n"
+      "    <Fallback name=\"one\">\n      <Brush/>\n    </Fallback>\n"
+      "    <Fallback name=\"two\"><Brush/></Fallback>\n"
+      "    <Repeat num_cycles=\"-1\">\n      <Rinse/>\n    </Repeat>\n"
+      "  </Sequence>\n"
+      "</BehaviorTree><TreeNodesModel><Action ID=\"Brush\"/>"
+      "<Action ID=\"Rinse\"/></TreeNodesModel></root>\n";
+  project.write("robot.xml", tree);
+  const std::string told =
+      project.run("answer robot.xml", "1\\n1\\n1\\n1\\n1\\n");
+  CHECK(has(told, "4 questions answered, 0 left open"));
+  CHECK(has(project.text_of("robot.xml"),
+            "    <!-- btcheck: allow BT2512 -->\n    <Fallback name=\"one\">"));
+  CHECK(has(project.text_of("robot.xml"),
+            "    <!-- btcheck: allow BT2512 -->\n    <Fallback name=\"two\">"));
+  CHECK(has(project.text_of("robot.xml"),
+            "    <!-- btcheck: allow BT2511 -->\n    <Repeat"));
+  CHECK(has(project.text_of("answers.leaves"), "Rinse :duration [1,inf]"));
+  CHECK(!has(project.run("robot.xml"), "BT25"));
+}
+
 TEST_CASE("an answer that no contract can give becomes a comment") {
   const Workspace project;
   project.write("robot.xml",
