@@ -8,6 +8,7 @@
 // every run as the tree stands.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,6 +46,8 @@ struct TreeFinding {
 inline bool is_question(const TreeFinding& finding) {
   return finding.severity == Severity::Note && finding.code.starts_with("BT25");
 }
+// How many of a tree are shown before the rest is counted.
+inline constexpr std::size_t kShownQuestions = 5;
 // Of what a finding says that the tree does: whether it may. `said` is what the
 // owner of its leaves has answered; where that is no, `against` says what the
 // answer was, as in "`clean` may not be cut off".

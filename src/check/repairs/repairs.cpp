@@ -94,7 +94,9 @@ class Repairing {
         budget_(std::clamp(2 * states_, kLeastBudget, kMostBudget)) {}
 
   void run() {
+    std::size_t asked = 0;
     for_all([&](auto& found, const Problem& problem) {
+      if (is_asked(found) && ++asked > kShownQuestions) return;
       mend(problem, nodes_of(found), found.repairs, found.repair);
     });
     // What has no repair of its own may be mended by that of another.
@@ -120,6 +122,11 @@ class Repairing {
         visit(each, problem_of(each, *result_.tree));
       }
     }
+  }
+
+  static bool is_asked(const Diagnostic&) { return false; }
+  static bool is_asked(const TreeFinding& finding) {
+    return is_question(finding);
   }
 
   // Those that a finding speaks of.

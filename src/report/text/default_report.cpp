@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "model/btcpp/action_clients.hpp"
@@ -377,27 +379,32 @@ std::string finding_text(const CheckResult& result, const CheckedFile& file,
 }
 
 // A line for each of the first, with what else is asked; with every step all of
-// them, as findings are told.
+// them, the first of each kind as findings are told.
 std::string questions_text(const CheckResult& result, const CheckedFile& file,
                            Layout layout) {
-  constexpr std::size_t kMost = 5;
+  constexpr std::size_t kMost = kShownQuestions;
+  const bool tells_all = layout.detail == Detail::EveryStep;
   std::string text;
+  std::string lines;
   std::size_t count = 0;
+  std::map<std::string_view, std::size_t> of_kind;
   for (const TreeFinding& finding : file.findings) {
     if (!is_question(finding)) continue;
-    if (layout.detail == Detail::EveryStep) {
+    if (tells_all && ++of_kind[finding.code] <= kMost) {
       text += finding_text(result, file, finding, layout);
-    } else if (++count <= kMost) {
+    } else if (tells_all || ++count <= kMost) {
       const std::string begin = fmt::format(
           "  {}  {}  ", finding.code, line_of(*result.tree, finding.node));
-      text +=
+      lines +=
           begin + wrapped(finding.message, begin.size(), layout.width) + "\n";
     }
   }
-  if (count > kMost) text += fmt::format("  and {} more: -v\n", count - kMost);
-  if (text.empty() || layout.detail == Detail::EveryStep) return text;
-  return "\nQuestions that `btcheck answer` asks you (-v shows the run)\n" +
-         text;
+  if (count > kMost) lines += fmt::format("  and {} more: -v\n", count - kMost);
+  if (lines.empty()) return text;
+  return text +
+         fmt::format("\nQuestions that `btcheck answer` asks you{}\n",
+                     tells_all ? ", too" : " (-v shows the run)") +
+         lines;
 }
 
 std::string findings_text(const CheckResult& result, const CheckedFile& file,
