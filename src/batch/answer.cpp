@@ -14,8 +14,10 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -36,10 +38,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "" where there is no such file.
-std::string text_of(const std::string& name) {
-  const auto file = read_file(name);
-  return file.value ? std::string(file.value->text.text()) : std::string();
+// "" where there is no such file; nothing, and what is wrong in `found`, where
+// it cannot be read.
+std::optional<std::string> text_of(const std::string& name,
+                                   std::vector<Diagnostic>& found) {
+  std::error_code fault;
+  if (!fs::exists(name, fault)) return "";
+  auto file = read_file(name);
+  if (file.value) return std::string(file.value->text.text());
+  found = std::move(file.diagnostics);
+  return std::nullopt;
+}
+
+bool has_key(const std::string& text, std::string_view key) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const auto begin = line.find_first_not_of(" \t");
+    if (begin == line.npos || line.compare(begin, key.size(), key) != 0) {
+      continue;
+    }
+    const auto sign = line.find_first_not_of(" \t", begin + key.size());
+    if (sign != line.npos && line[sign] == '=') return true;
+  }
+  return false;
 }
 
 class Session {
@@ -193,15 +214,19 @@ class Session {
              });
     });
   }
-  static std::tuple<std::string, std::string> key_of(const LeafClause& clause) {
-    return {clause.name, clause.keyword};
+  // Of a list, with what is in it.
+  using Key = std::tuple<std::string, std::string, std::string>;
+  static Key key_of(const LeafClause& clause) {
+    return {clause.name, clause.keyword,
+            clause.value.starts_with('(') ? clause.value : ""};
   }
 
   bool keep(const QuestionReply& answer, const BatchEntry& entry,
             const Options& read_with) {
     const std::string name = contracts_for(entry, read_with);
-    std::string text = text_of(name);
-    if (text.empty()) {
+    auto text = read(name);
+    if (!text) return false;
+    if (text->empty()) {
       text = "; What the leaves of this project mean, by `btcheck answer`\n";
     }
     for (const LeafClause& clause : answer.clauses) {
@@ -209,8 +234,8 @@ class Session {
       changes_behavior_ |=
           clause.keyword == "duration" || clause.keyword == "returns";
     }
-    text = with_reply(std::move(text), answer);
-    return write(name, text) && name_in_settings(name);
+    return write(name, with_reply(*std::move(text), answer)) &&
+           name_in_settings(name);
   }
 
   std::string contracts_for(const BatchEntry& entry, const Options& read_with) {
@@ -241,12 +266,27 @@ class Session {
 
   bool name_in_settings(const std::string& contracts) {
     if (new_settings_.empty() || contracts != contracts_) return true;
-    const std::string text = text_of(new_settings_);
+    const auto text = read(new_settings_);
+    if (!text) return false;
+    if (has_key(*text, "leaves")) {
+      print(fmt::format("  add \"answers.leaves\" to `leaves` in {}\n",
+                        new_settings_));
+      new_settings_.clear();
+      return true;
+    }
     // A key behind a table would be one of the table.
     const bool is_written =
-        write(new_settings_, "leaves = [\"answers.leaves\"]\n" + text);
+        write(new_settings_, "leaves = [\"answers.leaves\"]\n" + *text);
     settings_ = std::exchange(new_settings_, "");
     return is_written;
+  }
+
+  // Nothing, and told, where it cannot be read: it is not written over then.
+  std::optional<std::string> read(const std::string& name) {
+    std::vector<Diagnostic> found;
+    auto text = text_of(name, found);
+    if (!text) complain_of(found);
+    return text;
   }
 
   // A comment before the node, in a line of its own where the node begins one.
@@ -260,7 +300,9 @@ class Session {
         node.span.line +
         static_cast<int>(std::ranges::count_if(
             lines, [&](int each) { return each <= node.span.line; }));
-    const std::string text = text_of(name);
+    const auto read_text = read(name);
+    if (!read_text) return false;
+    const std::string& text = *read_text;
     const SourceText source(name, text);
     const auto begin = source.offset(line, 1);
     const auto word = source.offset(line, node.span.column);
@@ -292,7 +334,7 @@ class Session {
   std::string contracts_;     // the file that answers stand in, once known
   std::string new_settings_;  // that have still to name it
   std::string settings_;      // that do, and were not there before
-  std::set<std::tuple<std::string, std::string>> said_;
+  std::set<Key> said_;
   std::set<std::string> written_;
   std::size_t answered_ = 0;
   std::size_t left_ = 0;

@@ -346,6 +346,11 @@ TEST_CASE("answers silence what fits them, and warn of the rest") {
       "<Action ID=\"StartPump\"/><Action ID=\"StopPump\"/>";
   CHECK(said_with("", vacuum, pumps) == "BT2206");
   CHECK(said_with("(defaction StartPump :may-stay)", vacuum, pumps) == "");
+  const std::string turned =
+      "<Sequence><Inverter><A/></Inverter><B/></Sequence>";
+  CHECK(said_with("", turned, kThree) == "BT2507?");
+  CHECK(said_with("(defaction A :may-be-lost)", turned, kThree) == "");
+  CHECK(said_with("(defaction A :may-be-lost no)", turned, kThree) == "BT2207");
   // What only tells somebody is no work.
   CHECK(said_with("(defaction A :tells-only)", forgiven, kThree) == "");
 }

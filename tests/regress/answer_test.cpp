@@ -150,6 +150,20 @@ TEST_CASE("what stands in the file is kept") {
   CHECK(has(project.run("robot.xml"), "warning[BT2502]"));
 }
 
+TEST_CASE("what cannot be read is not written over") {
+  const Workspace project;
+  project.write("robot.xml", parallel("<Report/>"));
+  project.write("btcheck.toml", "leaves = []  # none yet\n");
+  const std::string told = project.run("answer robot.xml", "1\\n");
+  CHECK(has(told, "add \"answers.leaves\" to `leaves` in btcheck.toml"));
+  CHECK(project.text_of("btcheck.toml") == "leaves = []  # none yet\n");
+  fs::create_directory(project.path() / "own.leaves");
+  const std::string refused =
+      project.run("answer robot.xml -o own.leaves", "1\\n");
+  CHECK(has(refused, "error["));
+  CHECK(fs::is_directory(project.path() / "own.leaves"));
+}
+
 TEST_CASE("no answer, and answers that there are not") {
   const Workspace project;
   project.write("robot.xml", parallel("<Report/>"));

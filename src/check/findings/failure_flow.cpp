@@ -173,7 +173,10 @@ class FailureFlow : Look {
     for (const NodeId each : facts_.node(core).children) {
       const NodeId deed = facts_.core(each);
       const Answers& of = facts_.answers(deed);
-      if (!facts_.is_deed(deed) || !of.failure || !of.success) continue;
+      if (!facts_.is_deed(deed) || !of.failure || !of.success ||
+          facts_.said(deed, &LeafMeaning::may_be_lost) == true) {
+        continue;
+      }
       TreeFinding& finding = add_inverted(id, deed).finding;
       finding.help =
           "invert the condition alone, in a Fallback before the action";

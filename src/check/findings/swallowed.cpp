@@ -226,13 +226,17 @@ class Swallowed : Look {
     const Answers& answers = facts_.answers(deed);
     if (!facts_.is_deed(deed) || !answers.success || !answers.failure) return;
     if (!facts_.is_relied_on(id)) return;
+    const auto said = facts_.said(deed, &LeafMeaning::may_be_lost);
+    if (said == true) return;
     TreeFinding& finding = add_inverted(id, deed).finding;
-    finding.code = "BT2507";
-    finding.severity = Severity::Note;
-    finding.message = fmt::format(
-        "{} succeeds when {} fails: does that only "
-        "ask something?",
-        told(id), told(deed));
+    if (!said) {
+      finding.code = "BT2507";
+      finding.severity = Severity::Note;
+      finding.message = fmt::format(
+          "{} succeeds when {} fails: does that only "
+          "ask something?",
+          told(id), told(deed));
+    }
     finding.help =
         fmt::format("take {} away, if {} is no question", told(id), told(deed));
     finding.repairs = {{UnwrapNode{place(id)}}};
