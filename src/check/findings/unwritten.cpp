@@ -36,13 +36,12 @@ class Unwritten : Look {
     }
     for (const auto& [entry, uses] : by_entry) look_at(entry, uses);
     for (const auto& [entry, uses] : by_entry) {
+      if (uses.readers.size() != 1) continue;
       // Of ports that no model tells of both ways are possible.
-      const bool is_foreign =
-          uses.readers.size() == 1 &&
-          std::ranges::all_of(uses.writers, [&](NodeId writer) {
-            return writer == uses.readers[0];
-          });
-      if (is_foreign) ask_for_writer(entry, uses.readers[0], by_entry);
+      const NodeId reader = uses.readers[0];
+      const bool is_foreign = std::ranges::all_of(
+          uses.writers, [reader](NodeId writer) { return writer == reader; });
+      if (is_foreign) ask_for_writer(entry, reader, by_entry);
     }
   }
 
