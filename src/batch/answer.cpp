@@ -153,6 +153,13 @@ class Session {
                                : keep(answer, entry, inputs.options);
       if (!is_kept) return false;
     }
+    if (file.defaults && file.defaults->stopped != StopReason::None) {
+      print(
+          fmt::format("\n{}: the search ended at a limit, and more may be to "
+                      "be asked\n",
+                      entry.input));
+      code_ = worst_of(code_, ExitCode::Undecided);
+    }
     return !is_over_;
   }
 

@@ -55,6 +55,20 @@ constexpr std::string_view kXml =
 </root>
 )";
 
+// About which there is something to ask.
+constexpr std::string_view kAsked =
+    R"(<root BTCPP_format="4" main_tree_to_execute="T">
+  <BehaviorTree ID="T">
+    <Sequence>
+      <Parallel><Sequence><Ask/><Act/><Do/></Sequence><Move/></Parallel>
+      <ParallelAll><Act name="a"/><Act name="b"/><Act name="c"/><Act name="d"/>
+      </ParallelAll>
+    </Sequence>
+  </BehaviorTree>
+  <BehaviorTree ID="U"><Repeat num_cycles="-1"><Act/></Repeat></BehaviorTree>
+</root>
+)";
+
 constexpr std::string_view kRules = R"(property can: possible root.success
 property ends expect violated: eventually root.ended
 property all: never root.success and root.failure
@@ -87,6 +101,10 @@ void fill(const fs::path& folder, const Language& language) {
   write(folder / "trees/btcheck.toml",
         "tick-ms = 60\n[levels]\nBT1620 = \"warning\"\nBT1007 = \"note\"\n");
   write(folder / "events.jsonl", "{\"topic\": \"/odom\", \"time\": 1}\n");
+  write(folder / "answers.txt", "1\n1\n1\n");
+  fs::create_directory(folder / "asked");
+  write(folder / "asked/t.xml", kAsked);
+  write(folder / "asked/btcheck.toml", "[levels]\nBT2502 = \"allow\"\n");
   fs::create_directory(folder / "elsewhere");
 }
 
@@ -169,7 +187,8 @@ constexpr Without kWithout[] = {
     {"batch", "--no-repairs", "", "its table has none: JSON and the page have"},
     {"lint", "--tick-ms --loop --wake-ups", "", "it says nothing of time"},
     {"export", "-q", "", "it prints the model and nothing else"},
-    {"leaves", "*", "t.btf", "it refuses the tree"},
+    {"answer leaves", "*", "t.btf", "it refuses the tree"},
+    {"answer", "--search --reduce", "", "what is asked is the same"},
     {"leaves", "--config --no-config", "t.xml", "they name no models"},
     {"leaves", "--color", "t.xml", "it tells of errors only"},
     {"init", "-q", "", "it prints the rules; how far it is, on a terminal"},
@@ -222,6 +241,9 @@ std::vector<std::string> lines_of(const CommandRow& row,
               line + " --seed 3 --no-wait --ticks 60 --loop"};
     case Command::Lint:
       return {line, line + " --prop trees/t.ltl"};
+    case Command::Answer:
+      return {"answer asked/t.xml <answers.txt",
+              "answer asked/t.xml --main-tree U <answers.txt"};
     case Command::Monitor:
       return {line + " <events.jsonl",
               line + " --prop trees/t.ltl " + "<events.jsonl"};

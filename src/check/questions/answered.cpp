@@ -584,19 +584,20 @@ class Answered {
                     NodeId above) const {
     std::vector<NodeId> actions = actions_of(reports);
     const std::string names = facts_.few(actions);
+    const bool is_said = must_hold(guard, reports[0]->action) == true;
     return {
         .code = "BT2205",
-        .severity = is_engine(facts_.tree().profile) ? Severity::Warning
-                                                     : Severity::Note,
+        .severity = is_said || is_engine(facts_.tree().profile)
+                        ? Severity::Warning
+                        : Severity::Note,
         .node = guard,
         .others = std::move(actions),
         .message =
             fmt::format("{} is not asked again while {} run{}", told(guard),
                         names, reports.size() == 1 ? "s" : ""),
-        .why = fmt::format("{} resumes its running child{}", told(above),
-                           must_hold(guard, reports[0]->action)
-                               ? "; by a contract it has to be asked meanwhile"
-                               : ""),
+        .why = fmt::format(
+            "{} resumes its running child{}", told(above),
+            is_said ? "; by a contract it has to be asked meanwhile" : ""),
         .help = facts_.node(above).type == NodeType::IfThenElse
                     ? "make it a WhileDoElse, which asks in each tick"
                     : "put it with the actions, in a node of their own, under "
