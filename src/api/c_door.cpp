@@ -16,10 +16,10 @@
 #include <utility>
 #include <vector>
 
+#include "api/fields.hpp"
 #include "btcheck/check.h"
 #include "btcheck/check.hpp"
 #include "text/json.hpp"
-#include "text/numbers.hpp"
 
 namespace v1 = btcheck::v1;
 
@@ -29,9 +29,7 @@ struct btcheck_text {
 };
 
 struct btcheck_request {
-  v1::Request request;
-  v1::Plan plan;
-  std::string settings;
+  v1::Fields fields;
   mutable v1::Files files;  // its questions change nothing
   btcheck_source source = nullptr;
   void* source_context = nullptr;
@@ -73,7 +71,7 @@ class CSources final : public Sources {
     return request_.files.package(name);
   }
   std::optional<NamedText> settings(const std::string& tree) override {
-    const std::string& name = request_.settings;
+    const std::string& name = request_.fields.settings;
     if (name.empty()) return request_.files.settings(tree);
     auto found = text(name);
     if (!found) {
@@ -103,112 +101,6 @@ class CMonitor final : public Monitor {
 
 // --- What is set -----------------------------------------------------------
 
-// What does not fit changes nothing.
-bool set_flag(const std::string& value, bool& to) {
-  if (value != "true" && value != "false") return false;
-  to = value == "true";
-  return true;
-}
-
-template <class Number>
-bool set_number(const std::string& value, Number& to) {
-  const auto number = as_number<Number>(value);
-  if (number) to = *number;
-  return number.has_value();
-}
-
-bool set_seconds(const std::string& value, double& to) {
-  double seconds = 0;
-  // Neither negative nor NaN.
-  if (!set_number(value, seconds) || !(seconds >= 0)) return false;
-  to = seconds;
-  return true;
-}
-
-bool set_seed(const std::string& value, std::optional<std::uint64_t>& to) {
-  const auto number = as_number<std::uint64_t>(value);
-  if (number) to = number;
-  return number.has_value();
-}
-
-template <class Number>
-bool set_from(const std::string& value, Number least, Number& to) {
-  Number number = 0;
-  if (!set_number(value, number) || number < least) return false;
-  to = number;
-  return true;
-}
-
-bool add(const std::string& value, std::vector<std::string>& to) {
-  to.push_back(value);
-  return true;
-}
-
-bool take(const std::string& value, std::string& to) {
-  to = value;
-  return true;
-}
-
-using Setter = bool (*)(btcheck_request& request, const std::string& value);
-struct SetterRow {
-  std::string_view name;
-  Setter set;
-};
-
-constexpr SetterRow kSetters[] = {
-    {"tree",
-     [](auto& to, auto& value) { return take(value, to.request.tree); }},
-    {"profile",
-     [](auto& to, auto& value) { return take(value, to.request.profile); }},
-    {"main_tree",
-     [](auto& to, auto& value) { return take(value, to.request.main_tree); }},
-    {"ticks",
-     [](auto& to, auto& value) { return take(value, to.request.ticks); }},
-    {"settings",
-     [](auto& to, auto& value) { return take(value, to.settings); }},
-    {"tick_milliseconds",
-     [](auto& to, auto& value) {
-       return set_from(value, 0, to.request.tick_milliseconds);
-     }},
-    {"loops",
-     [](auto& to, auto& value) { return set_flag(value, to.request.loops); }},
-    {"wake_ups",
-     [](auto& to, auto& value) {
-       return set_flag(value, to.request.wake_ups);
-     }},
-    {"tries_repairs",
-     [](auto& to, auto& value) {
-       return set_flag(value, to.request.tries_repairs);
-     }},
-    {"threads",
-     [](auto& to, auto& value) {
-       return set_from(value, 1U, to.request.threads);
-     }},
-    {"seconds",
-     [](auto& to, auto& value) {
-       return set_seconds(value, to.request.seconds);
-     }},
-    {"states",
-     [](auto& to, auto& value) {
-       return set_number(value, to.request.states);
-     }},
-    {"bytes",
-     [](auto& to, auto& value) { return set_number(value, to.request.bytes); }},
-    {"seed",
-     [](auto& to, auto& value) { return set_seed(value, to.plan.seed); }},
-    {"script",
-     [](auto& to, auto& value) { return take(value, to.plan.script); }},
-    {"run_ticks",
-     [](auto& to, auto& value) { return set_from(value, 1, to.plan.ticks); }},
-    {"rules",
-     [](auto& to, auto& value) { return add(value, to.request.rules); }},
-    {"typed_rules",
-     [](auto& to, auto& value) { return add(value, to.request.typed_rules); }},
-    {"leaves",
-     [](auto& to, auto& value) { return add(value, to.request.leaves); }},
-    {"models",
-     [](auto& to, auto& value) { return add(value, to.request.models); }}};
-
 // Does it, or says why not.
 int changed(btcheck_request* request,
             const std::function<void(btcheck_request&)>& change) noexcept {
@@ -230,17 +122,6 @@ int changed(btcheck_request* request,
 std::string given(const char* text) {
   if (text == nullptr) throw std::invalid_argument("a text is missing");
   return text;
-}
-
-void set(btcheck_request& request, const std::string& name,
-         const std::string& value) {
-  for (const SetterRow& row : kSetters) {
-    if (row.name != name) continue;
-    if (row.set(request, value)) return;
-    throw std::invalid_argument(
-        fmt::format("`{}` does not fit `{}`", value, name));
-  }
-  throw std::invalid_argument(fmt::format("there is no `{}` to set", name));
 }
 
 // --- What is called --------------------------------------------------------
@@ -286,7 +167,7 @@ btcheck_report* asked(const btcheck_request* request, Ask ask,
   return answered([&](btcheck_report& report) {
     CSources sources(*request);
     CMonitor monitor(*request);
-    auto answer = ask(request->request, sources, &monitor);
+    auto answer = ask(request->fields.request, sources, &monitor);
     report.outcome = answer.outcome;
     report.json = answer.json();
     keep(std::move(answer), report);
@@ -332,7 +213,7 @@ void btcheck_request_free(btcheck_request* request) { delete request; }
 
 int btcheck_set(btcheck_request* request, const char* name, const char* value) {
   return v1::changed(request, [&](btcheck_request& to) {
-    v1::set(to, v1::given(name), v1::given(value));
+    v1::set_field(v1::given(name), v1::given(value), to.fields);
   });
 }
 
@@ -395,7 +276,7 @@ btcheck_report* btcheck_simulate(const btcheck_request* request) {
   return v1::asked(
       request,
       [&](const v1::Request& of, v1::Sources& sources, v1::Monitor* monitor) {
-        return v1::simulate(of, request->plan, sources, monitor);
+        return v1::simulate(of, request->fields.plan, sources, monitor);
       },
       v1::kKeepItf);
 }

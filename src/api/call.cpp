@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -52,11 +53,10 @@ void append(std::vector<Diagnostic>& all, const std::vector<Diagnostic>& more) {
 }
 
 // False where there are settings, and they are wrong.
-bool take_settings(const InputFile& tree, AskedSources& sources,
+bool take_settings(const InputFile& tree, CallSources& sources,
                    ReadingChoices& said, Judgement& judgement,
                    std::vector<Diagnostic>& found) {
-  // Names of files are compared as if they lay in one place.
-  judgement.directory = "/";
+  judgement.directory = sources.directory();
   const auto file = sources.settings(tree.name);
   if (!file) return true;
   const auto settings =
@@ -94,16 +94,19 @@ Spent Call::spent(Progress progress) {
   return what;
 }
 
-AskedSources::AskedSources(v1::Sources& sources) : sources_(sources) {
-  for (const std::string& name : sources.files()) {
-    if (!project_.is_new(name)) continue;
-    auto text = sources.text(name);
-    if (text) project_.add(name, std::move(*text));
+const XmlProject& AskedSources::project() const {
+  if (project_) return *project_;
+  project_.emplace();
+  for (const std::string& name : sources_.files()) {
+    if (!project_->is_new(name)) continue;
+    auto text = sources_.text(name);
+    if (text) project_->add(name, std::move(*text));
   }
+  return *project_;
 }
 
 Result<InputFile> AskedSources::text(const std::string& name) {
-  const InputFile* known = project_.read_file(name);
+  const InputFile* known = project().read_file(name);
   if (known != nullptr) return {*known, {}};
   auto found = sources_.text(name);
   if (found) return {InputFile{name, std::move(*found)}, {}};
@@ -111,7 +114,7 @@ Result<InputFile> AskedSources::text(const std::string& name) {
           {file_error("BT0002", name, fmt::format("cannot find `{}`", name))}};
 }
 
-std::optional<Inputs> inputs_of(const Request& request, AskedSources& sources,
+std::optional<Inputs> inputs_of(const Request& request, CallSources& sources,
                                 std::vector<Diagnostic>& found) {
   std::vector<InputFile> rules;
   bool are_all = true;
@@ -131,7 +134,7 @@ std::optional<Inputs> inputs_of(const Request& request, AskedSources& sources,
 }
 
 std::optional<Inputs> inputs_of_tree(const Request& request,
-                                     AskedSources& sources,
+                                     CallSources& sources,
                                      std::vector<Diagnostic>& found) {
   ReadingChoices said = choices_of(request);
   auto tree = sources.named(request.tree);
@@ -146,6 +149,19 @@ std::optional<Inputs> inputs_of_tree(const Request& request,
   if (!reading) return std::nullopt;
   inputs.tree = {std::move(*tree.value), std::move(*reading)};
   return inputs;
+}
+
+CheckOptions options_of(const Request& request, const Inputs& inputs,
+                        Call& call) {
+  CheckOptions options;
+  options.ticks = inputs.ticks;
+  options.judgement = inputs.judgement;
+  options.choices.threads = std::max(1U, request.threads);
+  if (request.states > 0) options.limits.max_states = request.states;
+  if (request.bytes > 0) options.limits.max_bytes = request.bytes;
+  options.limits.monitor = &call;
+  options.tries_repairs = request.tries_repairs;
+  return options;
 }
 
 Diagnostic spent_diagnostic(const BudgetSpent& spent, const std::string& file) {

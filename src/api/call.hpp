@@ -35,6 +35,7 @@ class Call final : public Budget, public SearchMonitor {
     return stopped_at_ < 0 && (seconds_ == 0 || seconds() < seconds_ / 2);
   }
 
+  bool was_stopped() const { return stopped_at_ >= 0; }
   double seconds() const {
     return std::chrono::duration<double>(Clock::now() - begin_).count();
   }
@@ -60,29 +61,40 @@ class Call final : public Budget, public SearchMonitor {
   std::atomic<double> stopped_at_ = -1;  // seconds; before: negative
 };
 
-// The user's sources as those of a check.
-class AskedSources final : public btcheck::Sources {
+// Where the texts of a call come from, and its settings.
+class CallSources : public btcheck::Sources {
  public:
-  explicit AskedSources(v1::Sources& sources);
+  // Throws std::invalid_argument where there are settings and they cannot be
+  // read.
+  virtual std::optional<NamedText> settings(const std::string& tree) = 0;
+  // Names of files are relative to it.
+  virtual std::string directory() const { return "/"; }
+};
+
+// The user's sources as those of a check.
+class AskedSources final : public CallSources {
+ public:
+  explicit AskedSources(v1::Sources& sources) : sources_(sources) {}
 
   Result<InputFile> text(const std::string& name) override;
   NearestFile with_tree(std::string_view tree,
                         const std::string& from) override {
-    return project_.with_tree(tree, from);
+    return project().with_tree(tree, from);
   }
   std::string package(std::string_view name,
                       const std::string& /*from*/) override {
     return sources_.package(std::string(name));
   }
-  std::optional<NamedText> settings(const std::string& tree) {
+  std::optional<NamedText> settings(const std::string& tree) override {
     return sources_.settings(tree);
   }
-  const XmlProject& project() const override { return project_; }
+  const XmlProject& project() const override;
   bool is_of_one_program() const override { return true; }
 
  private:
   v1::Sources& sources_;
-  XmlProject project_;
+  // Read when it is asked for: within the limits of the call.
+  mutable std::optional<XmlProject> project_;
 };
 
 struct Inputs {
@@ -94,12 +106,36 @@ struct Inputs {
 
 // What a request names, read, with what the settings say; what is wrong with it
 // is added to `found`. Nothing where a file is missing, or settings are wrong.
-std::optional<Inputs> inputs_of(const Request& request, AskedSources& sources,
+std::optional<Inputs> inputs_of(const Request& request, CallSources& sources,
                                 std::vector<Diagnostic>& found);
 // The same without rules.
 std::optional<Inputs> inputs_of_tree(const Request& request,
-                                     AskedSources& sources,
+                                     CallSources& sources,
                                      std::vector<Diagnostic>& found);
+// How a check is made that the request asks for.
+CheckOptions options_of(const Request& request, const Inputs& inputs,
+                        Call& call);
+
+// Reports of the same texts, asked for before.
+class KnownReports {
+ public:
+  virtual ~KnownReports() = default;
+  virtual std::optional<Report> find(const Request& request,
+                                     const Inputs& inputs) = 0;
+  // Of a call that was not ended by a limit.
+  virtual void keep(const Request& request, const Inputs& inputs,
+                    const Report& report) = 0;
+};
+
+// The calls of btcheck/check.hpp, with sources of this program.
+Report checked(const Request& request, CallSources& sources, Monitor* monitor,
+               KnownReports* known = nullptr);
+Report linted(const Request& request, CallSources& sources, Monitor* monitor,
+              KnownReports* known = nullptr);
+Description described(const Request& request, CallSources& sources,
+                      Monitor* monitor);
+Simulation simulated(const Request& request, const Plan& plan,
+                     CallSources& sources, Monitor* monitor);
 
 // BT9003: the call ended before there was anything to tell.
 Diagnostic spent_diagnostic(const BudgetSpent& spent, const std::string& file);

@@ -68,17 +68,22 @@ Report report_of(const CheckResult& result, const std::string& tree,
 
 // What both calls have in common; `run` checks the inputs.
 template <class Run>
-Report called(const Request& request, Sources& sources, Monitor* monitor,
-              Run run) {
+Report called(const Request& request, CallSources& sources, Monitor* monitor,
+              KnownReports* known, Run run) {
   Call call(request, monitor);
   const BudgetScope budget(&call);
   CheckResult result;
   ExitCode code = ExitCode::BadInput;
   StopReason stopped = StopReason::None;
+  std::optional<Inputs> inputs;
   try {
-    AskedSources asked(sources);
     std::vector<Diagnostic> found;
-    const auto inputs = inputs_of(request, asked, found);
+    inputs = inputs_of(request, sources, found);
+    // What is found while reading is not among the inputs.
+    if (!found.empty()) known = nullptr;
+    if (inputs && known != nullptr) {
+      if (auto report = known->find(request, *inputs)) return *report;
+    }
     if (inputs) code = run(*inputs, call, result);
     result.diagnostics.insert(result.diagnostics.begin(), found.begin(),
                               found.end());
@@ -88,7 +93,12 @@ Report called(const Request& request, Sources& sources, Monitor* monitor,
     code = ExitCode::Undecided;
     stopped = stop_reason(spent.spent());
   }
-  return report_of(result, request.tree, code, stopped, call);
+  Report report = report_of(result, request.tree, code, stopped, call);
+  if (inputs && known != nullptr && !call.was_stopped() &&
+      report.stopped.empty()) {
+    known->keep(request, *inputs, report);
+  }
+  return report;
 }
 
 }  // namespace
@@ -101,31 +111,34 @@ std::string Report::sarif() const {
   return whole ? sarif_text(whole->report) : std::string();
 }
 
-Report check(const Request& request, Sources& sources, Monitor* monitor) {
-  return called(request, sources, monitor,
+Report checked(const Request& request, CallSources& sources, Monitor* monitor,
+               KnownReports* known) {
+  return called(request, sources, monitor, known,
                 [&](const Inputs& inputs, Call& call, CheckResult& result) {
-                  CheckOptions options;
-                  options.ticks = inputs.ticks;
-                  options.judgement = inputs.judgement;
-                  options.choices.threads = std::max(1U, request.threads);
-                  if (request.states > 0)
-                    options.limits.max_states = request.states;
-                  if (request.bytes > 0)
-                    options.limits.max_bytes = request.bytes;
-                  options.limits.monitor = &call;
-                  options.tries_repairs = request.tries_repairs;
-                  result = check_and_repair(inputs.tree, inputs.rules, options);
+                  result = check_and_repair(inputs.tree, inputs.rules,
+                                            options_of(request, inputs, call));
                   return exit_code_of(result);
                 });
 }
 
-Report lint(const Request& request, Sources& sources, Monitor* monitor) {
-  return called(request, sources, monitor,
+Report linted(const Request& request, CallSources& sources, Monitor* monitor,
+              KnownReports* known) {
+  return called(request, sources, monitor, known,
                 [&](const Inputs& inputs, Call&, CheckResult& result) {
                   result =
                       lint_inputs(inputs.tree, inputs.rules, inputs.judgement);
                   return lint_code_of(result);
                 });
+}
+
+Report check(const Request& request, Sources& sources, Monitor* monitor) {
+  AskedSources asked(sources);
+  return checked(request, asked, monitor);
+}
+
+Report lint(const Request& request, Sources& sources, Monitor* monitor) {
+  AskedSources asked(sources);
+  return linted(request, asked, monitor);
 }
 
 std::optional<Explanation> explain(std::string_view code) {

@@ -79,8 +79,8 @@ void describe_tree(const TreeInput& input, const BehaviorTree& tree,
 
 }  // namespace
 
-Description describe(const Request& request, Sources& sources,
-                     Monitor* monitor) {
+Description described(const Request& request, CallSources& sources,
+                      Monitor* monitor) {
   Call call(request, monitor);
   const BudgetScope budget(&call);
   Description description;
@@ -88,8 +88,7 @@ Description describe(const Request& request, Sources& sources,
   description.outcome = Outcome::BadInput;
   std::vector<Diagnostic> found;
   try {
-    AskedSources asked(sources);
-    if (const auto inputs = inputs_of_tree(request, asked, found)) {
+    if (const auto inputs = inputs_of_tree(request, sources, found)) {
       const TreeInput& input = inputs->tree;
       auto read = read_tree(input.name, input.text, input.reading);
       judge(input, inputs->judgement, read.diagnostics);
@@ -111,6 +110,12 @@ Description describe(const Request& request, Sources& sources,
     description.findings.push_back(finding_of(btcheck::finding_of(each)));
   }
   return description;
+}
+
+Description describe(const Request& request, Sources& sources,
+                     Monitor* monitor) {
+  AskedSources asked(sources);
+  return described(request, asked, monitor);
 }
 
 }  // namespace btcheck::v1

@@ -62,7 +62,7 @@ void tell_state(const Simulation::Whole& whole, const Valuation& state,
 
 class Simulating {
  public:
-  Simulating(const Plan& plan, AskedSources& sources, Call& call,
+  Simulating(const Plan& plan, CallSources& sources, Call& call,
              std::vector<Diagnostic>& found, Simulation& told)
       : plan_(plan),
         sources_(sources),
@@ -148,7 +148,7 @@ class Simulating {
   }
 
   const Plan& plan_;
-  AskedSources& sources_;
+  CallSources& sources_;
   Call& call_;
   std::vector<Diagnostic>& found_;
   Simulation& told_;
@@ -163,17 +163,16 @@ std::string Simulation::itf() const {
                                       whole->run, whole->how));
 }
 
-Simulation simulate(const Request& request, const Plan& plan, Sources& sources,
-                    Monitor* monitor) {
+Simulation simulated(const Request& request, const Plan& plan,
+                     CallSources& sources, Monitor* monitor) {
   Call call(request, monitor);
   const BudgetScope budget(&call);
   Simulation told;
   std::vector<Diagnostic> found;
   try {
-    AskedSources asked(sources);
-    auto inputs = inputs_of_tree(request, asked, found);
+    auto inputs = inputs_of_tree(request, sources, found);
     if (inputs) {
-      Simulating(plan, asked, call, found, told).simulate(std::move(*inputs));
+      Simulating(plan, sources, call, found, told).simulate(std::move(*inputs));
     }
     if (!told.run || has_error(found)) told.outcome = Outcome::BadInput;
   } catch (const BudgetSpent& spent) {
@@ -187,6 +186,12 @@ Simulation simulate(const Request& request, const Plan& plan, Sources& sources,
     told.findings.push_back(finding_of(btcheck::finding_of(each)));
   }
   return told;
+}
+
+Simulation simulate(const Request& request, const Plan& plan, Sources& sources,
+                    Monitor* monitor) {
+  AskedSources asked(sources);
+  return simulated(request, plan, asked, monitor);
 }
 
 }  // namespace btcheck::v1

@@ -16,6 +16,7 @@
 #include "cli/inputs/watch.hpp"
 #include "cli/options/interface.hpp"
 #include "cli/outputs/write_reports.hpp"
+#include "project/content.hpp"
 #include "report/text/report.hpp"
 #include "trace/run/shown_text.hpp"
 
@@ -130,38 +131,12 @@ ReportedTree unrun_tree(const BatchEntry& entry, std::string reason) {
 
 std::string key_of(const BatchEntry& entry, const Inputs& inputs,
                    const Options& options) {
-  std::string all;
-  // Each part with its length, so that no two lists of parts look the same.
-  const auto add = [&](std::string_view part) {
-    all += fmt::format("{}:{}\n", part.size(), part);
-  };
+  Content all;
+  const auto add = [&](std::string_view part) { all.add(part); };
   add(build_identity());
   add(entry.name);
-  add(inputs.tree.name);
-  add(inputs.tree.text);
-  const TreeReading& reading = inputs.tree.reading;
-  for (const auto* files : {&reading.models, &reading.leaves, &reading.included,
-                            &reading.neighbours}) {
-    for (const InputFile& file : *files) {
-      add(file.name);
-      add(file.text);
-    }
-    add("");
-  }
-  for (const std::string& leaf : reading.other_leaves) add(leaf);
-  add("");
-  add(fmt::format("profile {} tick {} loop {} wake {} main {}",
-                  reading.profile ? profile_name(*reading.profile) : "",
-                  reading.tick_ms, reading.loops, reading.wakes,
-                  reading.main_tree));
-  for (const auto& [package, folder] : reading.packages) {
-    add(package);
-    add(folder);
-  }
-  for (const InputFile& file : inputs.properties) {
-    add(file.name);
-    add(file.text);
-  }
+  all.add(inputs.tree);
+  all.add(inputs.properties);
   for (const ExpectedVerdict& expected : entry.expected) {
     add(fmt::format("expect {} {}", static_cast<int>(expected.expectation),
                     expected.property));
@@ -175,7 +150,7 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
   add(options.scratch_dir);
   add_judgement(options.judgement, add);
   add(trace_dir(entry, options));
-  return content_hash(all);
+  return content_hash(all.text());
 }
 
 ReportedTree checked_tree(const BatchEntry& entry, const Inputs& inputs,

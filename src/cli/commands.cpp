@@ -33,6 +33,7 @@
 #include "report/formats/formats.hpp"
 #include "report/text/report.hpp"
 #include "report/text/space_report.hpp"
+#include "serve/command.hpp"
 #include "text/tables.hpp"
 #include "text/utf8.hpp"
 
@@ -244,23 +245,16 @@ struct RunOf {
   ExitCode (*run)(const Options&);
 };
 constexpr auto kRuns = std::to_array<RunOf>({
-    {Command::Check, run_check},
-    {Command::Space, run_space},
-    {Command::Export, run_export},
-    {Command::Trace, run_trace},
-    {Command::Simulate, run_simulate},
-    {Command::Demo, run_demo},
-    {Command::Batch, run_batch},
-    {Command::Lint, run_lint},
-    {Command::Explain, run_explain},
-    {Command::Init, run_init},
-    {Command::Conform, run_conform},
-    {Command::Completions, run_completions},
-    {Command::Man, run_man},
-    {Command::Run, run_run},
-    {Command::Monitor, run_monitor},
-    {Command::Leaves, run_leaves},
-    {Command::Answer, run_answer},
+    {Command::Check, run_check},       {Command::Space, run_space},
+    {Command::Export, run_export},     {Command::Trace, run_trace},
+    {Command::Simulate, run_simulate}, {Command::Demo, run_demo},
+    {Command::Batch, run_batch},       {Command::Lint, run_lint},
+    {Command::Explain, run_explain},   {Command::Init, run_init},
+    {Command::Conform, run_conform},   {Command::Completions, run_completions},
+    {Command::Man, run_man},           {Command::Run, run_run},
+    {Command::Monitor, run_monitor},   {Command::Leaves, run_leaves},
+    {Command::Answer, run_answer},     {Command::Serve, run_serve},
+    {Command::Mcp, run_mcp},
 });
 static_assert(is_indexed(kRuns, &RunOf::command));
 

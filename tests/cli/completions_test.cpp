@@ -81,7 +81,7 @@ echo "${COMPREPLY[*]}"
 }
 
 TEST_CASE("bash offers what may stand there") {
-  CHECK(offered("btcheck s") == "space simulate\n");
+  CHECK(offered("btcheck s") == "space simulate serve\n");
   CHECK(offered("btcheck tr") == "trace tree.btf\n");
   CHECK(offered("btcheck ma") == "\n");  // hidden
   CHECK(offered("btcheck space --st") == "--store --stats\n");

@@ -102,6 +102,19 @@ void fill(const fs::path& folder, const Language& language) {
         "tick-ms = 60\n[levels]\nBT1620 = \"warning\"\nBT1007 = \"note\"\n");
   write(folder / "events.jsonl", "{\"topic\": \"/odom\", \"time\": 1}\n");
   write(folder / "answers.txt", "1\n1\n1\n");
+  const std::string tree = "trees/" + language.tree;
+  for (const std::string_view method : {"init", "describe"}) {
+    const std::string asked = fmt::format(
+        R"({{"jsonrpc":"2.0","id":1,"method":"{}","params":{{"tree":"{}"}}}})",
+        method, tree);
+    write(folder / fmt::format("{}.rpc", method),
+          fmt::format("Content-Length: {}\r\n\r\n{}", asked.size(), asked));
+  }
+  write(folder / "check.rpc",
+        fmt::format(R"({{"jsonrpc":"2.0","id":1,"method":"tools/call",)"
+                    R"("params":{{"name":"check_tree","arguments":)"
+                    R"({{"tree":"{}"}}}}}})",
+                    tree));
   fs::create_directory(folder / "asked");
   write(folder / "asked/t.xml", kAsked);
   write(folder / "asked/btcheck.toml", "[levels]\nBT2502 = \"allow\"\n");
@@ -164,6 +177,7 @@ const std::map<std::string_view, std::string> kValues = {
     {"--lease", "--lease 7"},
     {"--join", "--join elsewhere"},
     {"--report", "--report new.html"},
+    {"--stdio", "--stdio"},
     {"--color", "--color always"},
     {"-q", "-q"},
     {"-v", "-v"},
@@ -200,6 +214,9 @@ constexpr Without kWithout[] = {
     {"monitor", "--tick-ms", "", "its rules do not count ticks"},
     {"conform", "--loop", "", "the log ends before the tree does"},
     {"conform", "--tick-ms", "t.btf", "the log has its ticks"},
+    {"serve", "--stdio", "", "there is no other way"},
+    {"serve", "--max-states", "t.xml", "as of init"},
+    {"serve mcp", "-q -v --color", "", "programs read what it prints"},
     {"conform", "-q", "", "it prints what it has found and nothing else"},
 };
 
@@ -244,6 +261,10 @@ std::vector<std::string> lines_of(const CommandRow& row,
     case Command::Answer:
       return {"answer asked/t.xml <answers.txt",
               "answer asked/t.xml --main-tree U <answers.txt"};
+    case Command::Serve:
+      return {"serve <init.rpc", "serve <describe.rpc"};
+    case Command::Mcp:
+      return {"mcp <check.rpc"};
     case Command::Monitor:
       return {line + " <events.jsonl",
               line + " --prop trees/t.ltl " + "<events.jsonl"};

@@ -114,7 +114,8 @@ const std::vector<Home>& homes() {
       {"nlohmann/",
        {"src/trace/run/itf.cpp", "src/batch/results/kept_text.cpp",
         "src/run/process/message.cpp", "src/trace/oracle/oracle.cpp",
-        "src/report/formats/json_report.cpp", "src/cli/settings/baseline.cpp"}},
+        "src/report/formats/json_report.cpp", "src/cli/settings/baseline.cpp",
+        "src/serve/message.cpp"}},
       {"CLI/", {"src/cli/options/words.cpp"}},
       {"doctest/", {}},
       {"tbb/", {"src/explore/", "src/ltl/", "src/cli/inputs/watch.cpp"}},
@@ -209,6 +210,7 @@ TEST_CASE("every code in the sources is explained") {
 bool has_a_clock(const SourceFile& source) {
   return source.path.rfind("src/run/", 0) == 0 ||
          source.path.rfind("src/api/", 0) == 0 ||
+         source.path.rfind("src/serve/", 0) == 0 ||
          source.path.rfind("src/btcheck/", 0) == 0;
 }
 
@@ -238,6 +240,7 @@ TEST_CASE("only the command line speaks of options") {
     const std::string room =
         source.path.substr(4, source.path.find('/', 4) - 4);
     const bool may_speak = room == "cli" || room == "batch" || room == "pins" ||
+                           room == "serve" ||
                            source.path.starts_with("src/report/codes/") ||
                            source.path.starts_with("src/check/export/ltsmin") ||
                            source.path == "src/text/choice.cpp";

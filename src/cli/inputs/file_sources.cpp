@@ -57,9 +57,16 @@ void add_beside(XmlProject& project, const std::vector<std::string>& roots,
   for (const std::string& name : names) add_file(project, roots, name);
 }
 
-FileSources::FileSources(const InputFile& tree, const Options& options)
+std::string buffer_name(const std::string& file) {
+  std::error_code fault;
+  return fs::absolute(file, fault).lexically_normal().string();
+}
+
+FileSources::FileSources(const InputFile& tree, const Options& options,
+                         const Buffers* buffers)
     : tree_(tree.name),
       options_(options),
+      buffers_(buffers),
       roots_(roots_of_includes(tree.name, options)),
       has_folder_(options.project == nullptr && !is_given(tree.name) &&
                   is_xml(tree.name, tree.text)) {
@@ -68,7 +75,29 @@ FileSources::FileSources(const InputFile& tree, const Options& options)
   if (tree.text.size() <= kMostBytes && beside_.is_new(name)) {
     beside_.add(name, tree.text);
   }
+  add_buffers_beside();
   add_beside(beside_, roots_, tree_);
+}
+
+void FileSources::add_buffers_beside() {
+  if (buffers_ == nullptr) return;
+  const fs::path folder = fs::path(tree_).parent_path();
+  const fs::path place = fs::path(buffer_name(tree_)).parent_path();
+  for (const auto& [file, text] : *buffers_) {
+    const fs::path path = file;
+    if (path.parent_path() != place) continue;
+    const std::string name = (folder / path.filename()).lexically_normal();
+    if (beside_.is_new(name)) beside_.add(name, text);
+  }
+}
+
+Result<InputFile> FileSources::read(const std::vector<std::string>& roots,
+                                    const std::string& name) const {
+  if (buffers_ != nullptr) {
+    const auto buffer = buffers_->find(buffer_name(name));
+    if (buffer != buffers_->end()) return {InputFile{name, buffer->second}, {}};
+  }
+  return read_file_in(roots, name);
 }
 
 const XmlProject& FileSources::project() const {
@@ -94,12 +123,12 @@ Result<InputFile> FileSources::text(const std::string& name) {
     roots_.push_back(fs::weakly_canonical(name, fault).parent_path().string());
     break;
   }
-  return read_file_in(roots_, name);
+  return read(roots_, name);
 }
 
 // Of a command, or of settings: what a tree may include is no matter of theirs.
 Result<InputFile> FileSources::named(const std::string& name) {
-  return read_file_in(options_.roots, name);
+  return read(options_.roots, name);
 }
 
 NearestFile FileSources::with_tree(std::string_view tree,

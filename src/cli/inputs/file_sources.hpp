@@ -3,6 +3,7 @@
 // The files of the file system, as far as they may be read.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,11 +23,17 @@ void add_file(XmlProject& project, const std::vector<std::string>& roots,
 void add_beside(XmlProject& project, const std::vector<std::string>& roots,
                 const std::string& file);
 
+// Texts that take the place of files, an editor's for instance; by their
+// absolute names, as `buffer_name` makes them.
+using Buffers = std::map<std::string, FileText>;
+std::string buffer_name(const std::string& file);
+
 // What one tree asks for, in the roots of a command.
 class FileSources final : public Sources {
  public:
-  // The options must outlive it.
-  FileSources(const InputFile& tree, const Options& options);
+  // The options and the buffers must outlive it.
+  FileSources(const InputFile& tree, const Options& options,
+              const Buffers* buffers = nullptr);
 
   Result<InputFile> text(const std::string& name) override;
   Result<InputFile> named(const std::string& name) override;
@@ -39,8 +46,14 @@ class FileSources final : public Sources {
   }
 
  private:
+  // As read_file_in, but for what is in a buffer.
+  Result<InputFile> read(const std::vector<std::string>& roots,
+                         const std::string& name) const;
+  void add_buffers_beside();
+
   const std::string tree_;
   const Options& options_;
+  const Buffers* buffers_;
   std::vector<std::string> roots_;
   // Folders of packages that ROS has installed.
   std::vector<std::string> installed_;

@@ -50,7 +50,9 @@ Place place_in(const std::filesystem::path& root,
                const std::filesystem::path& file) {
   std::error_code fault;
   const auto folder = std::filesystem::weakly_canonical(root, fault);
-  const auto place = std::filesystem::weakly_canonical(file, fault);
+  // Of what does not exist a relative name would stay one.
+  const auto place = std::filesystem::weakly_canonical(
+      std::filesystem::absolute(file, fault), fault);
   const auto [end, rest] = std::ranges::mismatch(folder, place);
   // `DIR/` has an empty name at its end.
   const bool is_in = end == folder.end() || end->empty();

@@ -53,18 +53,6 @@ std::string current_directory() {
   return fs::current_path(fault).string();
 }
 
-// Settings that are found above a tree are nothing that the tree asks for: they
-// may lie outside of the roots, but not lead out of their own folder.
-Result<InputFile> text_of_settings(const Options& options,
-                                   const std::string& name) {
-  std::vector<std::string> roots = options.roots;
-  if (options.settings.empty() && !options.given.contains("--root")) {
-    const fs::path folder = fs::path(name).parent_path();
-    roots.push_back(folder.empty() ? "." : folder.string());
-  }
-  return read_file_in(roots, name);
-}
-
 // The options with what the settings say; nothing where those are wrong.
 std::optional<Options> with_settings(const InputFile& tree,
                                      const Options& options,
@@ -96,6 +84,16 @@ void take_ticks(const InputFile& properties, Options& options) {
 }
 
 }  // namespace
+
+Result<InputFile> text_of_settings(const Options& options,
+                                   const std::string& name) {
+  std::vector<std::string> roots = options.roots;
+  if (options.settings.empty() && !options.given.contains("--root")) {
+    const fs::path folder = fs::path(name).parent_path();
+    roots.push_back(folder.empty() ? "." : folder.string());
+  }
+  return read_file_in(roots, name);
+}
 
 std::string settings_file(const Options& options, const std::string& tree) {
   if (options.ignores_settings || !options.settings.empty()) {

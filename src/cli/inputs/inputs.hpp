@@ -58,6 +58,11 @@ std::optional<Lowered> lowered_from(Inputs inputs, const Options& options);
 // with `.git`. "" for none.
 std::string settings_file(const Options& options, const std::string& tree);
 
+// Its text. Settings that are found above a tree are nothing that the tree asks
+// for: they may lie outside of the roots, but not lead out of their own folder.
+Result<InputFile> text_of_settings(const Options& options,
+                                   const std::string& name);
+
 // What the settings of a folder leave out of it; nothing where they cannot be
 // read: each tree says why.
 Excludes excludes_of(const Options& options, const std::string& folder);

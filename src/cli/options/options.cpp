@@ -410,9 +410,9 @@ void settle_shared(const OptionWords& words, BatchOptions& batch) {
 void settle_batch(const OptionWords& words, Options& options) {
   BatchOptions& batch = options.batch;
   batch.sources = options.inputs;
-  if (options.command != Command::Batch) return;
   batch.jobs = core_count();
   settle_number(words, "--jobs", 1, kMostThreads, batch.jobs);
+  if (options.command != Command::Batch) return;
   if (!words.has("--threads")) {
     options.threads = std::max(1u, core_count() / batch.jobs);
   }

@@ -41,7 +41,9 @@ enum class Command : std::uint8_t {
   Run,
   Monitor,
   Leaves,
-  Answer
+  Answer,
+  Serve,
+  Mcp
 };
 
 // The tree that `btcheck -` reads.

@@ -175,6 +175,21 @@ constexpr CommandRow kCommands[] = {
          "the answers as contracts of leaves, in the file of --leaves or in "
          "answers.leaves. What fits an answer is not asked again, in no tree "
          "of the project; what does not is a warning."},
+    {.command = Serve,
+     .word = "serve",
+     .summary = "a process that stays, for editors and other programs",
+     .description =
+         "Answers requests of JSON-RPC 2.0 on standard input and output, each "
+         "behind a Content-Length: check, lint, describe, simulate, init, "
+         "leaves and explain, several at a time. A request has its own limits "
+         "and can be cancelled."},
+    {.command = Mcp,
+     .word = "mcp",
+     .summary = "tools for agents, by the Model Context Protocol",
+     .description =
+         "Answers an agent on standard input and output: check_tree, "
+         "explain_finding, propose_repair, apply_repair, simulate and "
+         "list_node_types. Reads what lies in --root, and writes nothing."},
     {.command = Completions,
      .word = "completions",
      .argument = ArgumentKind::Shell,
@@ -199,21 +214,22 @@ constexpr CommandSet kReadsModels = {Check,  Batch,          Lint, Space,
 // An XML tree has an executor of its own.
 constexpr CommandSet kReadsBtf = {Check,    Batch, Lint,    Space, Export,
                                   Simulate, Init,  Conform, Run};
-constexpr CommandSet kHasSettings = {Check,  Batch,    Lint,           Space,
-                                     Export, Simulate, Init,           Conform,
-                                     Run,    Leaves,   Command::Answer};
+constexpr CommandSet kHasSettings = {
+    Check,   Batch, Lint,   Space,           Export, Simulate, Init,
+    Conform, Run,   Leaves, Command::Answer, Serve,  Mcp};
 constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space,
                                   Demo,  Init,  Command::Answer};
-constexpr CommandSet kCountsStates = {Check, Batch,   Space,          Demo,
-                                      Init,  Conform, Command::Answer};
-constexpr CommandSet kLimited = {Check,   Batch,  Lint,           Space, Export,
-                                 Trace,   Demo,   Simulate,       Init,  Run,
-                                 Conform, Leaves, Command::Answer};
+constexpr CommandSet kCountsStates = {
+    Check, Batch, Space, Demo, Init, Conform, Command::Answer, Serve, Mcp};
+constexpr CommandSet kLimited = {
+    Check, Batch, Lint,    Space,  Export,          Trace, Demo, Simulate,
+    Init,  Run,   Conform, Leaves, Command::Answer, Serve, Mcp};
 constexpr CommandSet kEvery = {
-    Check,    Batch,       Lint, Space,  Export,         Trace,
-    Simulate, Explain,     Demo, Init,   Conform,        Run,
-    Monitor,  Completions, Man,  Leaves, Command::Answer};
+    Check,    Batch,       Lint, Space,  Export,          Trace,
+    Simulate, Explain,     Demo, Init,   Conform,         Run,
+    Monitor,  Completions, Man,  Leaves, Command::Answer, Serve,
+    Mcp};
 
 constexpr std::string_view kProfileNames =
     "paper btcpp-3.5.1 btcpp-3.5 btcpp-3.6 btcpp-3.7 btcpp-3.8 btcpp-4.0 "
@@ -625,6 +641,18 @@ constexpr OptionRow kOptions[] = {
      .help = "how many entries are checked at a time",
      .commands = {Batch},
      .example = "btcheck batch FOLDER --jobs 4"},
+    {.name = "--jobs",
+     .value = "NUMBER",
+     .fallback = "one for each core",
+     .help = "how many requests are worked on at a time",
+     .commands = {Serve, Mcp},
+     .first = {Serve, Mcp},
+     .example = "btcheck serve --stdio --jobs 4"},
+    {.name = "--stdio",
+     .help = "on standard input and output; there is no other way yet",
+     .commands = {Serve},
+     .first = {Serve},
+     .example = "btcheck serve --stdio"},
     {.name = "--shard",
      .value = "I/N",
      .fallback = "all of it",

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+//
+// What the parameters of a request ask for, and the files that it may read.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/call.hpp"
+#include "api/fields.hpp"
+#include "cli/inputs/file_sources.hpp"
+#include "cli/options/options.hpp"
+#include "serve/message.hpp"
+
+namespace btcheck {
+
+// What holds for all requests of this process: its roots, and the limits of one
+// request. Set once, before the first.
+struct Service {
+  Options options;
+  double seconds = 0;       // the most of one call; 0: no limit
+  std::uint64_t bytes = 0;  // that one search may store; 0: no limit
+};
+const Service& service();
+void begin_service(Service service);
+
+// Files of the file system as a command reads them, and texts instead of some.
+class ServedSources final : public v1::CallSources {
+ public:
+  // The buffers are named as `buffer_name` does it.
+  ServedSources(std::string settings, Buffers buffers)
+      : settings_(std::move(settings)), buffers_(std::move(buffers)) {}
+
+  Result<InputFile> text(const std::string& name) override;
+  Result<InputFile> named(const std::string& name) override;
+  NearestFile with_tree(std::string_view tree,
+                        const std::string& from) override;
+  std::string package(std::string_view name, const std::string& from) override;
+  const XmlProject& project() const override;
+  bool is_of_one_program() const override { return false; }
+  std::optional<v1::NamedText> settings(const std::string& tree) override;
+  std::string directory() const override;
+
+  // What settings were asked for and there, for who keeps results.
+  const std::string& settings_text() const { return settings_text_; }
+  // The text that a change of lines is made in.
+  Result<InputFile> file(const std::string& name) const;
+
+ private:
+  const std::string settings_;  // "": of the tree's folder, or above it
+  const Buffers buffers_;
+  std::string settings_text_;
+  std::optional<FileSources> files_;  // since the tree is known
+};
+
+// The members of `params` that requests have, `others` beside them. Throws
+// RpcError for what nobody knows or what does not fit.
+struct AskedTree {
+  v1::Fields fields;
+  std::unique_ptr<ServedSources> sources;
+};
+AskedTree asked_by(const JsonValue& params,
+                   const std::vector<std::string>& others);
+
+// The names that asked_by knows.
+std::vector<std::string> request_names();
+
+// `call` with reports of the same inputs that were asked for before, which are
+// kept as long as there is room.
+v1::Report checked_once(const AskedTree& asked, v1::Monitor& monitor);
+v1::Report linted_once(const AskedTree& asked, v1::Monitor& monitor);
+
+}  // namespace btcheck

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "serve/server.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "cli/inputs/process_limits.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr std::size_t kMostWaiting = 1000;
+constexpr auto kLookInterval = std::chrono::milliseconds(100);
+constexpr double kTellInterval = 0.5;  // seconds
+
+// The result, or why there is none.
+std::string answer_text(const RpcMessage& message, const MethodRow& method,
+                        Work& work) {
+  try {
+    std::string result;
+    if (!work.is_cancelled()) result = method.answer(message.params, work);
+    if (work.is_out_of_memory()) {
+      throw RpcError(rpc::kOutOfMemory,
+                     "the process holds more than --memory allows");
+    }
+    if (work.is_cancelled()) throw RpcError(rpc::kCancelled, "cancelled");
+    return result_text(message.id, result);
+  } catch (const RpcError& fault) {
+    return error_text(message.id, fault);
+  } catch (const std::invalid_argument& fault) {
+    return error_text(message.id, {rpc::kInvalidParams, fault.what()});
+  } catch (const std::bad_alloc&) {
+    return error_text(message.id, {rpc::kOutOfMemory, "out of memory"});
+  } catch (const std::exception& fault) {
+    return error_text(message.id, {rpc::kInternalError, fault.what()});
+  }
+}
+
+}  // namespace
+
+bool Work::goes_on(const v1::Progress& progress) {
+  if (limits_of_command().overdrawn() == Spent::Memory) {
+    is_out_of_memory_ = true;
+  }
+  if (is_cancelled_ || is_out_of_memory_) return false;
+  const std::unique_lock lock(telling_, std::try_to_lock);
+  if (token_.empty() || !lock || progress.seconds < next_) return true;
+  next_ = progress.seconds + kTellInterval;
+  return wire_.send(progress_text_(token_, progress));
+}
+
+bool Server::run() {
+  std::vector<std::jthread> threads;
+  for (unsigned i = 0; i < thread_count_; ++i) {
+    threads.emplace_back([this] { work(); });
+  }
+  try {
+    for (bool goes_on = true; goes_on;) {
+      const auto received = wire_.next();
+      goes_on = received && take(*received);
+    }
+  } catch (...) {
+    drain();
+    throw;
+  }
+  if (!wire_.fault().empty()) {
+    wire_.send(error_text("", {rpc::kParseError, wire_.fault()}));
+  }
+  drain();
+  return wire_.fault().empty();
+}
+
+// What was asked for is answered, as long as somebody listens.
+void Server::drain() {
+  std::unique_lock lock(mutex_);
+  while (!at_work_.empty()) {
+    changed_.wait_for(lock, kLookInterval);
+    if (wire_.is_heard()) continue;
+    for (const auto& [id, work] : at_work_) work->cancel();
+  }
+  is_over_ = true;
+  changed_.notify_all();
+}
+
+bool Server::take(const Wire::Received& received) {
+  std::string id;
+  try {
+    if (!received.refused.empty()) {
+      throw RpcError(rpc::kInvalidRequest, received.refused);
+    }
+    RpcMessage message = read_message(received.text, id);
+    if (message.is_answer) return true;
+    if (!message.id.empty()) {
+      begin(std::move(message));
+    } else if (message.method == protocol_.cancel) {
+      cancel(message.params);
+    } else if (message.method == protocol_.end) {
+      return false;
+    }
+    return true;  // a notification that nobody knows is passed over
+  } catch (const RpcError& fault) {
+    return wire_.send(error_text(id, fault));
+  } catch (const std::bad_alloc&) {
+    return wire_.send(error_text(id, {rpc::kOutOfMemory, "out of memory"}));
+  }
+}
+
+void Server::begin(RpcMessage message) {
+  const auto method =
+      std::ranges::find(protocol_.methods, message.method, &MethodRow::name);
+  if (method == protocol_.methods.end()) {
+    throw RpcError(
+        rpc::kMethodNotFound,
+        fmt::format("there is no method `{}`", message.method.substr(0, 80)));
+  }
+  auto work =
+      std::make_shared<Work>(wire_, message.id, protocol_.progress_text);
+  Job job{std::move(message), &*method, std::move(work)};
+  if (!method->is_long) {
+    wire_.send(answer_to(job));
+    return;
+  }
+  const std::scoped_lock lock(mutex_);
+  if (waiting_.size() == kMostWaiting) {
+    throw RpcError(rpc::kOverload,
+                   fmt::format("{} requests wait already", kMostWaiting));
+  }
+  if (!at_work_.emplace(job.message.id, job.work).second) {
+    throw RpcError(rpc::kInvalidRequest,
+                   "a request with this `id` is not answered yet");
+  }
+  waiting_.push_back(std::move(job));
+  changed_.notify_one();
+}
+
+// Whoever cancels what is unknown, or answered, or cancelled, came too late.
+void Server::cancel(const JsonValue& params) {
+  const JsonValue* id = params.member(protocol_.cancel_id);
+  if (id == nullptr) return;
+  const std::string text =
+      id->is(JsonValue::Kind::Text) ? Json(id->text).text() : id->text;
+  const std::scoped_lock lock(mutex_);
+  const auto found = at_work_.find(text);
+  if (found != at_work_.end()) found->second->cancel();
+}
+
+std::string Server::answer_to(const Job& job) const {
+  const std::string text = answer_text(job.message, *job.method, *job.work);
+  return job.work->is_cancelled() && !protocol_.answers_cancelled
+             ? std::string()
+             : text;
+}
+
+void Server::work() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return is_over_ || !waiting_.empty(); });
+    if (waiting_.empty()) return;
+    const Job job = std::move(waiting_.front());
+    waiting_.pop_front();
+    lock.unlock();
+    const std::string text = answer_to(job);
+    lock.lock();
+    // Nothing of it is left when its answer is read: its id may be used again.
+    at_work_.erase(job.message.id);
+    lock.unlock();
+    if (!text.empty()) wire_.send(text);
+    lock.lock();
+    changed_.notify_all();
+  }
+}
+
+}  // namespace btcheck
