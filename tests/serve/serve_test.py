@@ -204,12 +204,14 @@ class Serve(unittest.TestCase):
 
     def test_memory(self):
         tree = large_tree(self.folder)
-        session = self.session("--memory", "200M", cwd=self.folder)
-        answer = session.ask("check", tree=tree)
-        if "result" in answer:
-            self.assertEqual(answer["result"]["exit_code"], 3)
-        else:
-            self.assertEqual(answer["error"]["code"], -32001)
+        session = self.session("--memory", "64M", cwd=self.folder)
+        report = session.result("check", tree=tree, bytes=1 << 20,
+                                tries_repairs=False)
+        self.assertEqual(report["exit_code"], 3)
+        # What a message alone takes is the process's as well.
+        error = session.error("check", tree=tree,
+                              text="<!--" + "x" * (60 << 20) + "-->")
+        self.assertEqual(error["code"], -32001)
         self.assertEqual(session.result("explain", code="BT2208")["code"],
                          "BT2208")
 
