@@ -456,6 +456,11 @@ TEST_CASE("what a leaf means is put together from all that is said of it") {
             .shown == "");
   CHECK(codes_for("(defaction Dive :may-be-lost)") == "BT1021 1:12");
   CHECK(codes_for("(defaction Unheard :may-be-lost)") == "");
+  // Nor where no leaf of its kind is there at all.
+  CHECK(contracted("<root BTCPP_format=\"4\"><BehaviorTree ID=\"T\"><Sequence>"
+                   "<AlwaysSuccess/></Sequence></BehaviorTree></root>",
+                   {"(defaction Unheard :may-be-lost)"})
+            .shown == "");
   CHECK(codes_for("(defaction Drive :asked-once)") == "BT1005 1:18");
   CHECK(codes_for("(defcondition IsFree :may-stay)") == "BT1005 1:22");
   CHECK(codes_for("(defaction Drive :may-stay perhaps)") == "BT1020 1:28");

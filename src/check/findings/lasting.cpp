@@ -274,11 +274,9 @@ class Lasting : Look {
   }
 
   std::string value_left(const Node& node, const Node& last) const {
-    for (std::size_t i = 0; i < node.arguments.size(); ++i) {
-      const Argument& own = node.arguments[i];
-      const bool differs =
-          i >= last.arguments.size() || last.arguments[i].value != own.value;
-      if (!differs) continue;
+    for (const Argument& own : node.arguments) {
+      const std::string* other = value_of(last, own.key);
+      if (other != nullptr && *other == own.value) continue;
       return fmt::format("`{}` stays at {}=\"{}\"", node.id, own.key,
                          own.value);
     }

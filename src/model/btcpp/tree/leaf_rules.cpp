@@ -323,9 +323,9 @@ void LeafRules::report_unused(std::size_t number) {
     return;
   }
   if (is_of_other_tree(rule)) return;
-  // What leaves mean is said for a whole project.
   const std::string help = nearest(rule);
-  if (!rule.has_behavior && help.starts_with("there are")) return;
+  // What leaves mean is said for a whole project: here it may have none such.
+  if (!rule.has_behavior && help.empty()) return;
   findings_.warning(place, {"BT1021",
                             fmt::format("no {} is called `{}`",
                                         type_name(rule.leaf), rule.name),
@@ -346,7 +346,8 @@ bool LeafRules::is_of_other_tree(const LeafRule& rule) const {
 }
 
 // Help for a contract that is not used: the node that it names although it
-// cannot have a contract, or names that are near.
+// cannot have a contract, or names that are near; of one that says what a leaf
+// does, else all names.
 std::string LeafRules::nearest(const LeafRule& rule) const {
   const BtcppRelease release = expansion_.document->release;
   const NodeType other =
@@ -370,8 +371,9 @@ std::string LeafRules::nearest(const LeafRule& rule) const {
     if (!node.node->name.empty()) names.insert(node.node->name);
   }
   const std::vector<std::string> known(names.begin(), names.end());
+  const bool lists_all = rule.has_behavior && !known.empty();
   return did_you_mean(rule.name, known,
-                      known.empty() ? "" : "there are " + listed(known));
+                      lists_all ? "there are " + listed(known) : "");
 }
 
 }  // namespace btcheck::btcpp
