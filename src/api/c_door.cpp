@@ -3,6 +3,7 @@
 // The door for C: every function catches all that is thrown.
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <map>
@@ -33,20 +34,24 @@ struct btcheck_request {
   mutable v1::Files files;  // its questions change nothing
   btcheck_source source = nullptr;
   void* source_context = nullptr;
+  btcheck_source packages = nullptr;
+  void* packages_context = nullptr;
+  btcheck_source trees = nullptr;
+  void* trees_context = nullptr;
   btcheck_monitor monitor = nullptr;
   void* monitor_context = nullptr;
   std::string error;
 };
 
+// What a report is told as.
+enum class Form : std::uint8_t { Json, Sarif, Itf, Runs, Page };
+
 struct btcheck_report {
   v1::Outcome outcome = v1::Outcome::BadInput;
-  std::string json;
   std::string error;
-  // Made when they are asked for: a run may be long.
-  std::function<std::string()> make_sarif;
-  std::function<std::string()> make_itf;
-  mutable std::optional<std::string> sarif;
-  mutable std::optional<std::string> itf;
+  // Made when they are asked for: a run may be long. A page has a name.
+  std::function<std::string(Form, const std::string&)> make;
+  mutable std::map<std::pair<Form, std::string>, std::string> made;
   mutable std::mutex making;
 };
 
@@ -59,16 +64,17 @@ class CSources final : public Sources {
 
   std::optional<std::string> text(const std::string& name) override {
     auto known = request_.files.text(name);
-    if (known || request_.source == nullptr) return known;
-    btcheck_text asked;
-    const int is_there =
-        request_.source(request_.source_context, name.c_str(), &asked);
-    if (asked.has_failed) throw std::bad_alloc();
-    return is_there != 0 ? std::move(asked.text) : std::nullopt;
+    return known ? known : told(request_.source, request_.source_context, name);
   }
   std::vector<std::string> files() override { return request_.files.files(); }
   std::string package(const std::string& name) override {
-    return request_.files.package(name);
+    const std::string known = request_.files.package(name);
+    if (!known.empty()) return known;
+    return told(request_.packages, request_.packages_context, name)
+        .value_or("");
+  }
+  std::string file_with_tree(const std::string& id) override {
+    return told(request_.trees, request_.trees_context, id).value_or("");
   }
   std::optional<NamedText> settings(const std::string& tree) override {
     const std::string& name = request_.fields.settings;
@@ -82,6 +88,15 @@ class CSources final : public Sources {
   }
 
  private:
+  static std::optional<std::string> told(btcheck_source source, void* context,
+                                         const std::string& name) {
+    if (source == nullptr) return std::nullopt;
+    btcheck_text asked;
+    const int is_there = source(context, name.c_str(), &asked);
+    if (asked.has_failed) throw std::bad_alloc();
+    return is_there != 0 ? std::move(asked.text) : std::nullopt;
+  }
+
   const btcheck_request& request_;
 };
 
@@ -130,7 +145,8 @@ void tell_error(Outcome outcome, const std::string& error,
                 btcheck_report& report) {
   report.outcome = outcome;
   report.error = error;
-  report.json = Json{{"schema", "btcheck-error/1"}, {"error", error}}.text();
+  report.made[{Form::Json, {}}] =
+      Json{{"schema", "btcheck-error/1"}, {"error", error}}.text();
 }
 
 void tell(const std::function<void(btcheck_report&)>& make,
@@ -158,37 +174,49 @@ btcheck_report* answered(
   }
 }
 
-// `ask` is one of the calls of btcheck/check.hpp, `keep` keeps what is asked
-// for later.
-template <class Ask, class Keep>
-btcheck_report* asked(const btcheck_request* request, Ask ask,
-                      Keep keep) noexcept {
+std::string form_of(const Report& report, Form form, const std::string& name) {
+  if (form == Form::Json) return report.json();
+  if (form == Form::Sarif) return report.sarif();
+  if (form == Form::Runs) return report.runs_json();
+  return form == Form::Page ? report.html(name) : std::string();
+}
+std::string form_of(const Simulation& run, Form form, const std::string&) {
+  if (form == Form::Json) return run.json();
+  if (form == Form::Itf) return run.itf();
+  return form == Form::Page ? run.html() : std::string();
+}
+std::string form_of(const Description& tree, Form form, const std::string&) {
+  return form == Form::Json ? tree.json() : std::string();
+}
+
+// `ask` is one of the calls of btcheck/check.hpp.
+template <class Ask>
+btcheck_report* asked(const btcheck_request* request, Ask ask) noexcept {
   if (request == nullptr) return nullptr;
   return answered([&](btcheck_report& report) {
     CSources sources(*request);
     CMonitor monitor(*request);
     auto answer = ask(request->fields.request, sources, &monitor);
     report.outcome = answer.outcome;
-    report.json = answer.json();
-    keep(std::move(answer), report);
+    report.make = [kept = std::move(answer)](Form form, const auto& name) {
+      return form_of(kept, form, name);
+    };
   });
 }
 
-constexpr auto kKeepNothing = [](auto&&, btcheck_report&) {};
-constexpr auto kKeepSarif = [](Report answer, btcheck_report& report) {
-  report.make_sarif = [kept = std::move(answer)] { return kept.sarif(); };
-};
-constexpr auto kKeepItf = [](Simulation answer, btcheck_report& report) {
-  report.make_itf = [kept = std::move(answer)] { return kept.itf(); };
-};
-
-const char* made(const btcheck_report& report,
-                 const std::function<std::string()>& make,
-                 std::optional<std::string>& text) noexcept {
+const char* made(const btcheck_report* report, Form form,
+                 const char* name = "") noexcept {
+  if (report == nullptr || name == nullptr) return "";
   try {
-    const std::lock_guard<std::mutex> lock(report.making);
-    if (!text) text = make ? make() : std::string();
-    return text->c_str();
+    const std::lock_guard<std::mutex> lock(report->making);
+    const std::pair<Form, std::string> key(form, name);
+    auto found = report->made.find(key);
+    if (found == report->made.end()) {
+      std::string text =
+          report->make ? report->make(form, key.second) : std::string();
+      found = report->made.emplace(key, std::move(text)).first;
+    }
+    return found->second.c_str();
   } catch (...) {
     return "";
   }
@@ -249,6 +277,20 @@ void btcheck_set_source(btcheck_request* request, btcheck_source source,
   request->source_context = context;
 }
 
+void btcheck_set_packages(btcheck_request* request, btcheck_source packages,
+                          void* context) {
+  if (request == nullptr) return;
+  request->packages = packages;
+  request->packages_context = context;
+}
+
+void btcheck_set_trees(btcheck_request* request, btcheck_source trees,
+                       void* context) {
+  if (request == nullptr) return;
+  request->trees = trees;
+  request->trees_context = context;
+}
+
 void btcheck_set_monitor(btcheck_request* request, btcheck_monitor monitor,
                          void* context) {
   if (request == nullptr) return;
@@ -261,24 +303,22 @@ const char* btcheck_request_error(const btcheck_request* request) {
 }
 
 btcheck_report* btcheck_check(const btcheck_request* request) {
-  return v1::asked(request, v1::check, v1::kKeepSarif);
+  return v1::asked(request, v1::check);
 }
 
 btcheck_report* btcheck_lint(const btcheck_request* request) {
-  return v1::asked(request, v1::lint, v1::kKeepSarif);
+  return v1::asked(request, v1::lint);
 }
 
 btcheck_report* btcheck_describe(const btcheck_request* request) {
-  return v1::asked(request, v1::describe, v1::kKeepNothing);
+  return v1::asked(request, v1::describe);
 }
 
 btcheck_report* btcheck_simulate(const btcheck_request* request) {
-  return v1::asked(
-      request,
-      [&](const v1::Request& of, v1::Sources& sources, v1::Monitor* monitor) {
-        return v1::simulate(of, request->fields.plan, sources, monitor);
-      },
-      v1::kKeepItf);
+  return v1::asked(request, [&](const v1::Request& of, v1::Sources& sources,
+                                v1::Monitor* monitor) {
+    return v1::simulate(of, request->fields.plan, sources, monitor);
+  });
 }
 
 btcheck_report* btcheck_explain(const char* code) {
@@ -286,12 +326,12 @@ btcheck_report* btcheck_explain(const char* code) {
   return v1::answered([&](btcheck_report& report) {
     const auto explained = v1::explain(code);
     report.outcome = v1::Outcome::Met;
-    report.json = btcheck::Json{{"schema", "btcheck-explanation/1"},
-                                {"code", explained->code},
-                                {"summary", explained->summary},
-                                {"description", explained->description},
-                                {"help", explained->help}}
-                      .text();
+    report.made[{Form::Json, {}}] = btcheck::Json{
+        {"schema", "btcheck-explanation/1"},
+        {"code", explained->code},
+        {"summary", explained->summary},
+        {"description", explained->description},
+        {"help", explained->help}}.text();
   });
 }
 
@@ -303,18 +343,24 @@ int btcheck_report_outcome(const btcheck_report* report) {
 }
 
 const char* btcheck_report_json(const btcheck_report* report) {
-  return report == nullptr ? "" : report->json.c_str();
+  return v1::made(report, Form::Json);
 }
 
 const char* btcheck_report_sarif(const btcheck_report* report) {
-  return report == nullptr
-             ? ""
-             : v1::made(*report, report->make_sarif, report->sarif);
+  return v1::made(report, Form::Sarif);
 }
 
 const char* btcheck_report_itf(const btcheck_report* report) {
-  return report == nullptr ? ""
-                           : v1::made(*report, report->make_itf, report->itf);
+  return v1::made(report, Form::Itf);
+}
+
+const char* btcheck_report_runs(const btcheck_report* report) {
+  return v1::made(report, Form::Runs);
+}
+
+const char* btcheck_report_html(const btcheck_report* report,
+                                const char* name) {
+  return v1::made(report, Form::Page, name);
 }
 
 const char* btcheck_report_error(const btcheck_report* report) {

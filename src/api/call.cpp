@@ -53,10 +53,11 @@ void append(std::vector<Diagnostic>& all, const std::vector<Diagnostic>& more) {
 }
 
 // False where there are settings, and they are wrong.
-bool take_settings(const InputFile& tree, CallSources& sources,
-                   ReadingChoices& said, Judgement& judgement,
-                   std::vector<Diagnostic>& found) {
-  judgement.directory = sources.directory();
+bool take_settings(const InputFile& tree, const std::string& directory,
+                   CallSources& sources, ReadingChoices& said,
+                   Judgement& judgement, std::vector<Diagnostic>& found) {
+  // Names of files are compared as if they lay in one place.
+  judgement.directory = directory.empty() ? "/" : directory;
   const auto file = sources.settings(tree.name);
   if (!file) return true;
   const auto settings =
@@ -114,6 +115,17 @@ Result<InputFile> AskedSources::text(const std::string& name) {
           {file_error("BT0002", name, fmt::format("cannot find `{}`", name))}};
 }
 
+NearestFile AskedSources::with_tree(std::string_view tree,
+                                    const std::string& from) {
+  const NearestFile near = project().with_tree(tree, from);
+  if (near.file != nullptr || tree.empty()) return near;
+  const std::string name = sources_.file_with_tree(std::string(tree));
+  auto text = name.empty() || !around_.is_new(name) ? std::nullopt
+                                                    : sources_.text(name);
+  if (text) around_.add(name, std::move(*text));
+  return around_.with_tree(tree, from);
+}
+
 std::optional<Inputs> inputs_of(const Request& request, CallSources& sources,
                                 std::vector<Diagnostic>& found) {
   std::vector<InputFile> rules;
@@ -141,7 +153,8 @@ std::optional<Inputs> inputs_of_tree(const Request& request,
   append(found, tree.diagnostics);
   if (!tree.value) return std::nullopt;
   Inputs inputs;
-  if (!take_settings(*tree.value, sources, said, inputs.judgement, found)) {
+  if (!take_settings(*tree.value, request.directory, sources, said,
+                     inputs.judgement, found)) {
     return std::nullopt;
   }
   inputs.ticks = said.ticks;

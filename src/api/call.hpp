@@ -67,20 +67,17 @@ class CallSources : public btcheck::Sources {
   // Throws std::invalid_argument where there are settings and they cannot be
   // read.
   virtual std::optional<NamedText> settings(const std::string& tree) = 0;
-  // Names of files are relative to it.
-  virtual std::string directory() const { return "/"; }
 };
 
 // The user's sources as those of a check.
 class AskedSources final : public CallSources {
  public:
-  explicit AskedSources(v1::Sources& sources) : sources_(sources) {}
+  AskedSources(v1::Sources& sources, bool is_one_program)
+      : sources_(sources), is_one_program_(is_one_program) {}
 
   Result<InputFile> text(const std::string& name) override;
   NearestFile with_tree(std::string_view tree,
-                        const std::string& from) override {
-    return project().with_tree(tree, from);
-  }
+                        const std::string& from) override;
   std::string package(std::string_view name,
                       const std::string& /*from*/) override {
     return sources_.package(std::string(name));
@@ -89,12 +86,14 @@ class AskedSources final : public CallSources {
     return sources_.settings(tree);
   }
   const XmlProject& project() const override;
-  bool is_of_one_program() const override { return true; }
+  bool is_of_one_program() const override { return is_one_program_; }
 
  private:
   v1::Sources& sources_;
+  const bool is_one_program_;
   // Read when it is asked for: within the limits of the call.
   mutable std::optional<XmlProject> project_;
+  XmlProject around_;
 };
 
 struct Inputs {

@@ -16,11 +16,15 @@
 #include "report/formats/reported.hpp"
 #include "report/text/report.hpp"
 #include "text/version.hpp"
+#include "trace/run/record.hpp"
+#include "trace/viewer/html.hpp"
 
 namespace btcheck::v1 {
 
 struct Report::Whole {
   btcheck::Report report;
+  CheckResult result;
+  TreeInput input;
 };
 
 namespace {
@@ -38,16 +42,20 @@ void add_file(const ReportedFile& file, Report& report) {
   }
 }
 
-Report report_of(const CheckResult& result, const std::string& tree,
+Report report_of(CheckResult made, TreeInput input, const Request& request,
                  ExitCode code, StopReason stopped, const Call& call) {
   const BudgetScope telling(nullptr);
   auto whole = std::make_shared<Report::Whole>();
-  whole->report.trees.push_back(reported(result, tree, code));
+  whole->result = std::move(made);
+  whole->input = std::move(input);
+  const CheckResult& result = whole->result;
+  whole->report.directory = whole->report.root = request.directory;
+  whole->report.trees.push_back(reported(result, request.tree, code));
   ReportedTree& told = whole->report.trees[0];
   told.seconds = call.seconds();
   Report report;
   report.outcome = static_cast<Outcome>(code);
-  report.tree = tree;
+  report.tree = request.tree;
   report.node_count = told.nodes;
   report.variable_count = told.variables;
   report.states = states_of(told);
@@ -93,15 +101,69 @@ Report called(const Request& request, CallSources& sources, Monitor* monitor,
     code = ExitCode::Undecided;
     stopped = stop_reason(spent.spent());
   }
-  Report report = report_of(result, request.tree, code, stopped, call);
-  if (inputs && known != nullptr && !call.was_stopped() &&
-      report.stopped.empty()) {
+  const bool is_whole = !call.was_stopped();
+  Report report =
+      report_of(std::move(result), inputs ? inputs->tree : TreeInput(), request,
+                code, stopped, call);
+  if (inputs && known != nullptr && is_whole && report.stopped.empty()) {
     known->keep(request, *inputs, report);
   }
   return report;
 }
 
+// --- Pages ------------------------------------------------------------------
+
+// The run of an answer or a finding, and a verdict on it.
+struct NamedRun {
+  const std::optional<KeptRun>* run = nullptr;
+  btcheck::Verdict verdict = btcheck::Verdict::Violated;
+};
+
+NamedRun kept_run(const BehaviorTree& tree, const CheckedFile& file,
+                  std::string_view name) {
+  if (file.defaults) {
+    for (const TreeReport& answer : file.defaults->tree) {
+      const bool is_named = words_of(answer.question).key == name;
+      if (is_named) return {&answer.run, answer.verdict};
+      if (trace_name(answer) == name) return {&answer.run};
+    }
+  }
+  const auto names = trace_names(tree, file.findings);
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) return {};
+  return {&file.findings[static_cast<std::size_t>(found - names.begin())].run};
+}
+
+std::string page_of(const Report::Whole& whole, const CheckedFile& file,
+                    std::string_view name) {
+  const BehaviorTree& tree = *whole.result.tree;
+  const auto page = [&](const btcheck::Run& run, RunHeading heading) {
+    add_sources(heading, tree, whole.input);
+    return html_text(recorded(tree, *file.network, run, heading));
+  };
+  for (const PropertyVerdict& verdict : file.verdicts) {
+    if (verdict.run && verdict.property->name == name) {
+      return page(*verdict.run, heading_of(whole.result, file, verdict));
+    }
+  }
+  const NamedRun kept = kept_run(tree, file, name);
+  if (kept.run == nullptr || !*kept.run) return {};
+  RunHeading heading;
+  heading.property = heading.formula = name;
+  heading.verdict = verdict_word(kept.verdict);
+  return page((*kept.run)->told(), std::move(heading));
+}
+
 }  // namespace
+
+std::string Report::html(std::string_view name) const {
+  if (!whole || name.empty()) return {};
+  for (const CheckedFile& file : whole->result.files) {
+    std::string page = page_of(*whole, file, name);
+    if (!page.empty()) return page;
+  }
+  return {};
+}
 
 std::string Report::json() const {
   return whole ? json_text(whole->report) : std::string();
@@ -132,12 +194,12 @@ Report linted(const Request& request, CallSources& sources, Monitor* monitor,
 }
 
 Report check(const Request& request, Sources& sources, Monitor* monitor) {
-  AskedSources asked(sources);
+  AskedSources asked(sources, request.is_one_program);
   return checked(request, asked, monitor);
 }
 
 Report lint(const Request& request, Sources& sources, Monitor* monitor) {
-  AskedSources asked(sources);
+  AskedSources asked(sources, request.is_one_program);
   return linted(request, asked, monitor);
 }
 

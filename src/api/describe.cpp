@@ -114,7 +114,7 @@ Description described(const Request& request, CallSources& sources,
 
 Description describe(const Request& request, Sources& sources,
                      Monitor* monitor) {
-  AskedSources asked(sources);
+  AskedSources asked(sources, request.is_one_program);
   return described(request, asked, monitor);
 }
 

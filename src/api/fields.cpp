@@ -91,6 +91,12 @@ constexpr SetterRow kSetters[] = {
      [](auto& to, auto& value) {
        return set_flag(value, to.request.tries_repairs);
      }},
+    {"one_program",
+     [](auto& to, auto& value) {
+       return set_flag(value, to.request.is_one_program);
+     }},
+    {"directory",
+     [](auto& to, auto& value) { return take(value, to.request.directory); }},
     {"threads",
      [](auto& to, auto& value) {
        return set_from(value, 1U, to.request.threads);

@@ -39,6 +39,19 @@ Json json_of(const Step& step) {
               {"where", json_of(step.where)}};
 }
 
+Json json_of(const std::vector<Step>& steps) {
+  return json_list(steps, [](const Step& step) { return json_of(step); });
+}
+
+// `finding`: its number in the report.
+void add_run(const std::optional<Run>& run, Json finding, Json& to) {
+  if (!run) return;
+  to.push(Json{{"name", run->name},
+               {"finding", std::move(finding)},
+               {"loop", run->loop ? Json(*run->loop) : Json::null()},
+               {"steps", json_of(run->steps)}});
+}
+
 Json json_of(const Finding& finding) {
   constexpr std::array<std::string_view, 3> kLevels = {"note", "warning",
                                                        "error"};
@@ -100,6 +113,16 @@ Json json_of(const std::vector<Finding>& findings) {
 
 }  // namespace
 
+std::string Report::runs_json() const {
+  Json runs = Json::array();
+  for (const Rule& rule : rules) add_run(rule.run, Json::null(), runs);
+  for (const Answer& each : answers) add_run(each.run, Json::null(), runs);
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    add_run(findings[i].run, i, runs);
+  }
+  return Json{{"schema", "btcheck-runs/1"}, {"runs", runs}}.text();
+}
+
 std::string Description::json() const {
   return Json{
       {"schema", "btcheck-description/1"},
@@ -118,21 +141,18 @@ std::string Description::json() const {
 std::string Simulation::json() const {
   constexpr std::array<std::string_view, 6> kEndings = {
       "ended", "fault", "stuck", "ticks", "stopped", "refused"};
-  return Json{
-      {"schema", "btcheck-simulation/1"},
-      {"outcome", static_cast<int>(outcome)},
-      {"tree", tree},
-      {"profile", profile},
-      {"findings", json_of(findings)},
-      {"ending", kEndings[static_cast<std::size_t>(ending)]},
-      {"end", end},
-      {"ticks", ticks},
-      {"lines", Json::array(lines)},
-      {"steps", run ? json_list(run->steps,
-                                [](const Step& each) { return json_of(each); })
-                    : Json::array()},
-      {"variables", json_of(variables)},
-      {"statuses", json_of(statuses)}}
+  return Json{{"schema", "btcheck-simulation/1"},
+              {"outcome", static_cast<int>(outcome)},
+              {"tree", tree},
+              {"profile", profile},
+              {"findings", json_of(findings)},
+              {"ending", kEndings[static_cast<std::size_t>(ending)]},
+              {"end", end},
+              {"ticks", ticks},
+              {"lines", Json::array(lines)},
+              {"steps", run ? json_of(run->steps) : Json::array()},
+              {"variables", json_of(variables)},
+              {"statuses", json_of(statuses)}}
       .text();
 }
 

@@ -12,6 +12,7 @@
 #include "trace/formats/text.hpp"
 #include "trace/run/itf.hpp"
 #include "trace/run/record.hpp"
+#include "trace/viewer/html.hpp"
 
 namespace btcheck::v1 {
 
@@ -157,10 +158,21 @@ class Simulating {
 
 }  // namespace
 
+namespace {
+
+RecordedRun recorded_of(const Simulation::Whole& whole) {
+  return recorded_simulation(whole.tree, whole.network, whole.input, whole.run,
+                             whole.how);
+}
+
+}  // namespace
+
 std::string Simulation::itf() const {
-  if (!whole) return {};
-  return itf_text(recorded_simulation(whole->tree, whole->network, whole->input,
-                                      whole->run, whole->how));
+  return whole ? itf_text(recorded_of(*whole)) : std::string();
+}
+
+std::string Simulation::html() const {
+  return whole ? html_text(recorded_of(*whole)) : std::string();
 }
 
 Simulation simulated(const Request& request, const Plan& plan,
@@ -190,7 +202,7 @@ Simulation simulated(const Request& request, const Plan& plan,
 
 Simulation simulate(const Request& request, const Plan& plan, Sources& sources,
                     Monitor* monitor) {
-  AskedSources asked(sources);
+  AskedSources asked(sources, request.is_one_program);
   return simulated(request, plan, asked, monitor);
 }
 

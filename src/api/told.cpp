@@ -30,8 +30,12 @@ std::vector<Change> changes_of(const std::optional<CheckedRepair>& repair) {
   return changes;
 }
 
-std::optional<Run> run_where_told(const std::optional<ToldRun>& told) {
-  return told ? std::optional(run_of(*told)) : std::nullopt;
+std::optional<Run> run_where_told(const std::optional<ToldRun>& told,
+                                  const std::string& name) {
+  if (!told) return std::nullopt;
+  Run run = run_of(*told);
+  run.name = name;
+  return run;
 }
 
 }  // namespace
@@ -66,7 +70,8 @@ Finding finding_of(const btcheck::Finding& of) {
   }
   finding.where = position_of(of.place);
   finding.node = of.node;
-  finding.run = run_where_told(of.run);
+  finding.run = run_where_told(
+      of.run, of.about == btcheck::Finding::About::Rule ? of.title : of.trace);
   finding.repair = changes_of(of.repair);
   return finding;
 }
@@ -81,7 +86,7 @@ Rule rule_of(const ReportedProperty& of) {
   rule.is_vacuous = of.is_vacuous;
   rule.note = of.note;
   rule.reason = of.reason;
-  rule.run = run_where_told(of.run);
+  rule.run = run_where_told(of.run, of.name);
   return rule;
 }
 
@@ -101,7 +106,9 @@ Node node_of(const ReportedNode& of) {
 }
 
 Answer answer_of(const ReportedAnswer& of) {
-  return {of.key, of.question, of.answer, verdict_of(of.verdict), of.is_fault};
+  return {of.key,      of.question,
+          of.answer,   verdict_of(of.verdict),
+          of.is_fault, run_where_told(of.run, of.key)};
 }
 
 }  // namespace btcheck::v1

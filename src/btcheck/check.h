@@ -67,6 +67,9 @@ void btcheck_request_free(btcheck_request *request);
 //   tick_milliseconds  what one tick of the root takes; "0": as the settings
 //                      say, else 100
 //   loops, wake_ups, tries_repairs   "true" or "false"
+//   one_program        "true"; "false": models in files with trees of their own
+//                      do not count, as for a command given one file of a folder
+//   directory          absolute: where names that are not absolute begin
 //   threads            a number from 1 on
 //   seconds            for the whole call, "2.5"; "0": no limit
 //   states, bytes      the most that a search may store; "0": no limit
@@ -93,6 +96,13 @@ typedef int (*btcheck_source)(void *context, const char *name,
 void btcheck_text_set(btcheck_text *to, const char *bytes, size_t length);
 void btcheck_set_source(btcheck_request *request, btcheck_source source,
                         void *context);
+
+// In the same way: asked for the share folder of a ROS package that was not
+// added, and for the name of the file that has a tree which no added file has.
+void btcheck_set_packages(btcheck_request *request, btcheck_source packages,
+                          void *context);
+void btcheck_set_trees(btcheck_request *request, btcheck_source trees,
+                       void *context);
 
 // Asked some hundred times a second, by any thread of the call, how the search
 // goes: 0 ends the call within a tenth of a second, and what is known then is in
@@ -127,6 +137,11 @@ const char *btcheck_report_json(const btcheck_report *report);
 // Of a check and lint SARIF; of a simulation the run as ITF JSON; else "".
 const char *btcheck_report_sarif(const btcheck_report *report);
 const char *btcheck_report_itf(const btcheck_report *report);
+// Of a check all its runs by their names, one object; else "".
+const char *btcheck_report_runs(const btcheck_report *report);
+// The page that shows the run of that name, one file for any browser; of a
+// simulation its run by whatever name. "" for a name that no run has.
+const char *btcheck_report_html(const btcheck_report *report, const char *name);
 // What is wrong with the request itself, a profile that does not exist for
 // instance, or with btcheck; "" for nothing. Mistakes in trees stand in the JSON.
 const char *btcheck_report_error(const btcheck_report *report);

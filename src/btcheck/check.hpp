@@ -55,6 +55,10 @@ class Sources {
   // there is none.
   virtual std::string package(const std::string& /*name*/) { return {}; }
 
+  // The name of the file that has a tree which is in none of files(); "" where
+  // there is none.
+  virtual std::string file_with_tree(const std::string& /*id*/) { return {}; }
+
   // The btcheck.toml that holds for a tree; nothing where there is none. It
   // says what the request does not: profile, length of a tick, models,
   // contracts; and which findings are meant, or are errors. What it names lies
@@ -97,6 +101,11 @@ struct Request {
   bool loops = false;         // ticked again after it has ended
   bool wake_ups = false;      // ticked by tickOnce
   bool tries_repairs = true;  // a checked change beside findings
+  // All files() belong to one program. False, as for a command that is given
+  // one file of a folder: models in files with trees of their own do not count.
+  bool is_one_program = true;
+  // Absolute: where names that are not absolute begin. "": nobody says.
+  std::string directory;
   unsigned threads = 1;
 
   // 0: no limit. Seconds count from the call, through all that is done.
@@ -155,6 +164,10 @@ struct Run {
   std::vector<Step> steps;
   // Of an endless run: the number of the step with which its loop begins.
   std::optional<std::size_t> loop;
+  // By which Report::html knows it: that of its rule, the key of its answer,
+  // "BT2208-RecoveryActions" of a finding, as the files of --trace-dir. "":
+  // there is no page.
+  std::string name;
 };
 
 // Lines [first, first + removed) of a file become `added`.
@@ -198,6 +211,7 @@ struct Answer {
   std::string answer;    // "yes, e.g. in tick 1"
   Verdict verdict = Verdict::Undecided;
   bool is_fault = false;
+  std::optional<Run> run;  // that shows it
 };
 
 // Of a tree without rules: what is proven of a node. Nothing where nodes of its
@@ -235,6 +249,11 @@ class Report {
   // The report as `btcheck --format json` and `--format sarif` print it.
   std::string json() const;
   std::string sarif() const;
+  // All runs by their names.
+  std::string runs_json() const;
+  // The page that shows the run of that name, one file for any browser; "" for
+  // a name that no run has.
+  std::string html(std::string_view name) const;
 
   // For check() and lint().
   struct Whole;
@@ -336,8 +355,10 @@ class Simulation {
 
   // All of it as one object.
   std::string json() const;
-  // The run as `btcheck simulate -o` writes it; "" where there was none.
+  // The run as `btcheck simulate -o` writes it, and as a page; "" where there
+  // was none.
   std::string itf() const;
+  std::string html() const;
 
   // For simulate().
   struct Whole;

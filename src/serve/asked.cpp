@@ -144,8 +144,6 @@ const XmlProject& ServedSources::project() const {
   return files_ ? files_->project() : none;
 }
 
-std::string ServedSources::directory() const { return current_folder(); }
-
 std::optional<v1::NamedText> ServedSources::settings(const std::string& tree) {
   const auto read = file(tree);
   if (read.value) {
@@ -171,6 +169,9 @@ std::optional<v1::NamedText> ServedSources::settings(const std::string& tree) {
 
 std::vector<std::string> request_names() {
   std::vector<std::string> names = v1::field_names();
+  // Decided by where files lie.
+  std::erase(names, "one_program");
+  std::erase(names, "directory");
   names.insert(names.end(), {"text", "files"});
   return names;
 }
@@ -191,6 +192,7 @@ AskedTree asked_by(const JsonValue& params,
     set(name, params.items[i], asked.fields);
   }
   v1::Request& request = asked.fields.request;
+  request.directory = current_folder();
   bound(service().seconds, request.seconds);
   bound(service().bytes, request.bytes);
   bound(service().options.max_states, request.states);
@@ -275,7 +277,7 @@ class Known final : public v1::KnownReports {
     all.add(inputs.rules);
     all.add(sources_.settings_text());
     all.add(fmt::format("{} {} {}", request.ticks, request.tries_repairs,
-                        sources_.directory()));
+                        request.directory));
     return all.text();
   }
 

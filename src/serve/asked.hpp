@@ -42,7 +42,6 @@ class ServedSources final : public v1::CallSources {
   const XmlProject& project() const override;
   bool is_of_one_program() const override { return false; }
   std::optional<v1::NamedText> settings(const std::string& tree) override;
-  std::string directory() const override;
 
   // What settings were asked for and there, for who keeps results.
   const std::string& settings_text() const { return settings_text_; }
