@@ -3,6 +3,7 @@
 // The door for C: every function catches all that is thrown.
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -40,6 +41,7 @@ struct btcheck_request {
   void* trees_context = nullptr;
   btcheck_monitor monitor = nullptr;
   void* monitor_context = nullptr;
+  std::atomic<bool> is_cancelled = false;
   std::string error;
 };
 
@@ -105,9 +107,10 @@ class CMonitor final : public Monitor {
   explicit CMonitor(const btcheck_request& request) : request_(request) {}
 
   bool goes_on(const Progress& progress) override {
-    return request_.monitor == nullptr ||
-           request_.monitor(request_.monitor_context, progress.states,
-                            progress.transitions, progress.seconds) != 0;
+    return !request_.is_cancelled &&
+           (request_.monitor == nullptr ||
+            request_.monitor(request_.monitor_context, progress.states,
+                             progress.transitions, progress.seconds) != 0);
   }
 
  private:
@@ -296,6 +299,10 @@ void btcheck_set_monitor(btcheck_request* request, btcheck_monitor monitor,
   if (request == nullptr) return;
   request->monitor = monitor;
   request->monitor_context = context;
+}
+
+void btcheck_cancel(btcheck_request* request) {
+  if (request != nullptr) request->is_cancelled = true;
 }
 
 const char* btcheck_request_error(const btcheck_request* request) {

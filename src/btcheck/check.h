@@ -112,6 +112,10 @@ typedef int (*btcheck_monitor)(void *context, uint64_t states,
 void btcheck_set_monitor(btcheck_request *request, btcheck_monitor monitor,
                          void *context);
 
+// Ends the calls that go on with the request as a monitor does, from any thread,
+// and all later ones as soon as they begin.
+void btcheck_cancel(btcheck_request *request);
+
 // Why the last btcheck_set, btcheck_add_file or btcheck_add_package has failed;
 // "" where it has not.
 const char *btcheck_request_error(const btcheck_request *request);

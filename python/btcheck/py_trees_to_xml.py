@@ -1,0 +1,1 @@
+../../contrib/py_trees/py_trees_to_xml.py
