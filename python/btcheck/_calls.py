@@ -257,7 +257,7 @@ class _Builder:
         self.name("tree", tree)  # type: ignore
         return self._named[-1] not in self._files
 
-    def read_disk(self, settings: Union[None, bool, Path]) -> None:
+    def read_disk(self, settings: Union[None, bool, Path], has_contracts: bool) -> None:
         request = self.request
         tree, named = self._named[-1], self._named[:-1]
         if isinstance(settings, (str, os.PathLike)):
@@ -265,23 +265,19 @@ class _Builder:
         request.disk = disk = Disk(tree, named)
         request.set("directory", os.fsencode(os.getcwd()))
         request.set("one_program", "false")
-        if _is_xml_tree(tree):
-            for name, text in disk.beside().items():
-                if name not in self._files:
-                    request.add_file(os.fsencode(name), text)
         found = disk.settings() if settings is None or settings is True else ""
         if isinstance(settings, (str, os.PathLike)):
             found = os.fspath(settings)
         if found:
             request.set("settings", os.fsencode(found))
+        if not tree.endswith(".btf"):
+            for name, text in disk.beside(has_contracts or bool(found)).items():
+                if name not in self._files:
+                    request.add_file(os.fsencode(name), text)
 
 
 def _is_rule_file(name: str) -> bool:
     return name.endswith((".ltl", ".btp")) or os.path.isfile(name)
-
-
-def _is_xml_tree(name: str) -> bool:
-    return not name.endswith(".btf")
 
 
 # --- Calls ------------------------------------------------------------------------
@@ -369,6 +365,7 @@ def _ask(
     for name, folder in (packages or {}).items():
         made.request.add_package(name, folder)
     made.add_rules(rules)
+    leaves = _several(leaves)
     made.add("leaves", leaves, "(;#")
     made.add("models", models, "<")
     if script is not None:
@@ -382,7 +379,7 @@ def _ask(
         word = str(value).lower() if isinstance(value, bool) else str(value)
         made.request.set(name, word)
     if made.set_tree(tree, conditions):
-        made.read_disk(settings)
+        made.read_disk(settings, bool(leaves))
     if cancel is None:
         return _answered(call, made.request)
     cancel._add(made.request)

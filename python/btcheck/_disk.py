@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import re
 import stat
-from typing import Callable, Dict, Iterator, List, Optional, Sequence, Tuple
+from typing import Callable, Dict, Iterator, List, Optional, Sequence, Set, Tuple
 
 _SETTINGS = "btcheck.toml"
 _MOST_BYTES = 64 << 20  # of a file
@@ -21,6 +21,9 @@ _MOST_LOOKS = 20_000  # at names of files and folders
 _FOLDERS_UP = 3  # from a tree to the folder of all packages
 _FOLDERS_DOWN = 3  # and down to a package.xml
 _FOLDERS_TO_TREES = 6  # from that folder to a tree
+
+# The ID of a tree.
+_TREE = re.compile(rb"<BehaviorTree\b[^>]*?\bID\s*=\s*[\"']([^\"']*)[\"']")
 
 
 def read_file(name: str, most: int = _MOST_BYTES) -> bytes:
@@ -154,8 +157,11 @@ class Disk:
                 raise
             return None
 
-    def beside(self) -> Dict[str, bytes]:
-        """The XML files in the folder of the tree, with that of the tree."""
+    def beside(self, has_contracts: bool) -> Dict[str, bytes]:
+        """The XML files in the folder of the tree that can count for it, with
+        that of the tree: those with models, those that may have a tree that is
+        used, and beside contracts all. To parse the others would take longer
+        than to check a small tree."""
         folder = os.path.dirname(self.tree)
         names = [name for name in os.listdir(folder or ".") if _is_xml(name)]
         files = {}
@@ -164,7 +170,25 @@ class Disk:
             text = self._small(file)
             if text is not None:
                 files[file] = text
-        return files
+        own = files.get(os.path.normpath(self.tree), b"")
+        if has_contracts or b"<include" in own:
+            return files
+        trees = {file: set(_TREE.findall(text)) for file, text in files.items()}
+        chosen = {file for file, text in files.items() if b"TreeNodesModel" in text}
+        chosen.add(os.path.normpath(self.tree))
+        known: Set[bytes] = set()
+        grows = True
+        while grows:
+            known.update(*(trees.get(file, ()) for file in chosen))
+            words = b"\n".join(files.get(file, b"") for file in chosen)
+            more = {
+                file
+                for file, has in trees.items()
+                if any(tree in words or b"&" in tree for tree in has - known)
+            }
+            grows = not more <= chosen
+            chosen |= more
+        return {file: text for file, text in files.items() if file in chosen}
 
     def settings(self) -> str:
         """The name of the btcheck.toml that holds for the tree, or ""."""

@@ -11,17 +11,35 @@
 namespace btcheck {
 namespace {
 
-// Of a conjunct `variable = value`.
-std::optional<std::pair<VariableId, int>> demand_of(
-    const Expression& conjunct) {
-  const auto terms = conjunct.terms();
-  if (terms.size() != 3 || terms[0].operation != Operation::Variable ||
-      terms[1].operation != Operation::Constant ||
-      terms[2].operation != Operation::Equal) {
-    return std::nullopt;
+// Where the operand begins that ends there.
+std::size_t start_of(std::span<const Term> terms, std::size_t last) {
+  int owed = arity(terms[last].operation);
+  while (owed > 0) owed += arity(terms[--last].operation) - 1;
+  return last;
+}
+
+// Calls visit(operation, variable, value) for each conjunct `variable = value`
+// or `variable != value`, from the last to the first. Behind an `and` stands
+// nothing but conjuncts, so none is copied.
+template <class Visit>
+void for_each_demand(const Expression& guard, Visit visit) {
+  const std::span<const Term> terms = guard.terms();
+  for (std::size_t end = terms.size(); end > 0;) {
+    const Term& term = terms[end - 1];
+    if (term.operation == Operation::And) {
+      --end;
+      continue;
+    }
+    const std::size_t start = start_of(terms, end - 1);
+    if (end - start == 3 && is_equality(term.operation) &&
+        terms[start].operation == Operation::Variable &&
+        terms[start + 1].operation == Operation::Constant) {
+      visit(term.operation,
+            VariableId{static_cast<std::uint32_t>(terms[start].operand)},
+            int{terms[start + 1].operand});
+    }
+    end = start;
   }
-  return std::pair{VariableId{static_cast<std::uint32_t>(terms[0].operand)},
-                   int{terms[1].operand}};
 }
 
 }  // namespace
@@ -37,9 +55,10 @@ std::optional<int> constant_value(const Assignment& assignment) {
 std::vector<std::pair<VariableId, int>> demanded_values(
     const Expression& guard) {
   std::vector<std::pair<VariableId, int>> all;
-  for (const Expression& conjunct : guard.conjuncts()) {
-    if (const auto demand = demand_of(conjunct)) all.push_back(*demand);
-  }
+  for_each_demand(guard, [&](Operation how, VariableId variable, int value) {
+    if (how == Operation::Equal) all.emplace_back(variable, value);
+  });
+  std::ranges::reverse(all);
   std::ranges::stable_sort(all, {}, &std::pair<VariableId, int>::first);
   const auto is_same = [](const auto& one, const auto& other) {
     return one.first == other.first;
@@ -50,20 +69,22 @@ std::vector<std::pair<VariableId, int>> demanded_values(
 
 std::optional<int> demanded_value(const Expression& guard,
                                   VariableId variable) {
-  for (const Expression& conjunct : guard.conjuncts()) {
-    const auto demand = demand_of(conjunct);
-    if (demand && demand->first == variable) return demand->second;
-  }
-  return std::nullopt;
+  std::optional<int> demanded;
+  for_each_demand(guard, [&](Operation how, VariableId of, int value) {
+    if (how == Operation::Equal && of == variable) demanded = value;
+  });
+  return demanded;
 }
 
 bool excludes(const Expression& guard, VariableId variable, int value) {
-  const Expression refusal = differs(variable, value);
-  const auto demanded = demanded_value(guard, variable);
-  const auto conjuncts = guard.conjuncts();
-  return (demanded && demanded != value) ||
-         std::find(conjuncts.begin(), conjuncts.end(), refusal) !=
-             conjuncts.end();
+  bool is_refused = false;
+  std::optional<int> demanded;
+  for_each_demand(guard, [&](Operation how, VariableId of, int other) {
+    if (of != variable) return;
+    if (how == Operation::Equal) demanded = other;
+    is_refused |= how == Operation::NotEqual && other == value;
+  });
+  return is_refused || (demanded && demanded != value);
 }
 
 bool takes_time(const Network& network, const Edge& edge) {
