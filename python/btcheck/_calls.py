@@ -11,7 +11,7 @@ import threading
 import xml.etree.ElementTree as ElementTree
 from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Set, Union
 
-from ._disk import Disk
+from ._disk import Disk, ReadError
 from ._library import Source, library
 from ._report import (
     Description,
@@ -79,21 +79,25 @@ def _answer(key: int, to: int, ask: Callable[[Disk], Optional[bytes]]) -> int:
     return 1
 
 
-@Source
 def _text(key: int, name: bytes, to: int) -> int:
     return _answer(key, to, lambda disk: disk.text(os.fsdecode(name)))
 
 
-@Source
 def _package(key: int, name: bytes, to: int) -> int:
     return _answer(key, to, lambda disk: os.fsencode(disk.package(os.fsdecode(name))))
 
 
-@Source
 def _tree(key: int, name: bytes, to: int) -> int:
     return _answer(
         key, to, lambda disk: os.fsencode(disk.file_with_tree(os.fsdecode(name)))
     )
+
+
+_SOURCES = {
+    "source": Source(_text),
+    "packages": Source(_package),
+    "trees": Source(_tree),
+}
 
 
 # --- Requests -------------------------------------------------------------------
@@ -109,6 +113,13 @@ def _utf8(text: Text, what: str) -> bytes:
             "%s has a lone surrogate, which UTF-8 cannot hold, at character %d"
             % (what, error.start + 1)
         ) from None
+
+
+def _encoded(path: Path) -> bytes:
+    try:
+        return os.fsencode(path)
+    except UnicodeEncodeError:
+        raise RequestError("%r is no name of a file" % (path,)) from None
 
 
 class _Request:
@@ -143,7 +154,7 @@ class _Request:
             self._refuse()
 
     def add_package(self, name: str, folder: Path) -> None:
-        given = _utf8(name, "the name of a package"), os.fsencode(folder)
+        given = _utf8(name, "the name of a package"), _encoded(folder)
         if library().btcheck_add_package(self.pointer, *given) != 0:
             self._refuse()
 
@@ -182,7 +193,12 @@ def _from_py_trees(tree: object, conditions: Iterable[str]) -> str:
 def _several(values: object) -> List[Any]:
     if isinstance(values, (str, bytes, os.PathLike)):
         return [values]
-    return list(values)  # type: ignore
+    try:
+        return list(values)  # type: ignore
+    except TypeError:
+        raise RequestError(
+            "%r is neither a text nor the name of a file, nor a list of them" % (values,)
+        ) from None
 
 
 def _size(value: Union[int, str]) -> str:
@@ -217,10 +233,10 @@ class _Builder:
             raise RequestError(
                 "%r is neither a text nor the path of a file" % (file,)
             ) from None
-        if not name:
-            raise RequestError("`%s` has an empty name" % what)
+        if not name or not isinstance(name, str):
+            raise RequestError("%r is no name of a file for `%s`" % (file, what))
         self._named.append(name)
-        self.request.set(what, os.fsencode(name), "`%s`" % name)
+        self.request.set(what, _encoded(name), "`%s`" % name)
 
     def add(self, what: str, values: object, begins: str) -> None:
         """Files, or texts that begin so."""
@@ -269,7 +285,7 @@ class _Builder:
         if isinstance(settings, (str, os.PathLike)):
             found = os.fspath(settings)
         if found:
-            request.set("settings", os.fsencode(found))
+            request.set("settings", _encoded(found))
         if not tree.endswith(".btf"):
             for name, text in disk.beside(has_contracts or bool(found)).items():
                 if name not in self._files:
@@ -327,16 +343,15 @@ def _answered(name: str, request: _Request) -> _Handle:
     if request.disk is not None:
         key = next(_numbers)
         _asking[key] = request
-        library().btcheck_set_source(request.pointer, _text, key)
-        library().btcheck_set_packages(request.pointer, _package, key)
-        library().btcheck_set_trees(request.pointer, _tree, key)
+        for what, source in _SOURCES.items():
+            getattr(library(), "btcheck_set_" + what)(request.pointer, source, key)
     is_main = threading.current_thread() is threading.main_thread()
     try:
         handle = (_call_beside if is_main else _call)(function, request)
     finally:
         _asking.pop(key, None)
-    if isinstance(request.error, OSError):
-        raise RequestError("cannot read a file: %s" % request.error) from None
+    if isinstance(request.error, ReadError):
+        raise RequestError(str(request.error)) from None
     if request.error is not None:
         raise request.error
     error = handle.error()

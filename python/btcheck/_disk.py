@@ -26,15 +26,30 @@ _FOLDERS_TO_TREES = 6  # from that folder to a tree
 _TREE = re.compile(rb"<BehaviorTree\b[^>]*?\bID\s*=\s*[\"']([^\"']*)[\"']")
 
 
+class ReadError(OSError):
+    """Says in a sentence why a file cannot be read."""
+
+
 def read_file(name: str, most: int = _MOST_BYTES) -> bytes:
-    """All of a regular file. Raises OSError."""
-    descriptor = os.open(name, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
-    with open(descriptor, "rb") as file:
-        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
-            raise OSError("`%s` is no regular file" % name)
-        text = file.read(most + 1)
+    """All of a regular file. Raises FileNotFoundError, or a ReadError."""
+    flags = os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC
+    try:
+        descriptor = os.open(name, flags)
+        with os.fdopen(descriptor, "rb") as file:
+            if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+                raise ReadError("`%s` is a pipe or a device; name a file" % name)
+            text = file.read(most + 1)
+    except IsADirectoryError:
+        raise ReadError("`%s` is a directory; name a file in it" % name) from None
+    except (FileNotFoundError, NotADirectoryError):
+        raise FileNotFoundError(name) from None
+    except ReadError:
+        raise
+    except OSError as error:
+        raise ReadError("cannot read `%s`: %s" % (name, error.strerror)) from None
     if len(text) > most:
-        raise OSError("`%s` is larger than %d MiB" % (name, most >> 20))
+        raise ReadError("`%s` is larger than %d MiB, the most that is read of a file"
+                        % (name, most >> 20))
     return text
 
 

@@ -9,7 +9,7 @@ import platform
 import threading
 from ctypes import c_char_p, c_int, c_size_t, c_void_p
 from pathlib import Path
-from typing import Optional
+from typing import Any, List, Optional, Sequence, Tuple
 
 from ._version import VERSION
 
@@ -23,7 +23,7 @@ Source = ctypes.CFUNCTYPE(c_int, c_void_p, c_char_p, c_void_p)
 
 _REQUEST = [c_void_p]
 # Name, what it returns, what it takes. Texts that are returned are copied.
-_FUNCTIONS = (
+_FUNCTIONS: Sequence[Tuple[str, Any, List[Any]]] = (
     ("version", c_char_p, []),
     ("request_new", c_void_p, []),
     ("request_free", None, _REQUEST),

@@ -272,9 +272,12 @@ def _steps(steps: List[_Json]) -> Tuple[Step, ...]:
     )
 
 
+def _changes(repair: Optional[_Json]) -> Tuple[Change, ...]:
+    return tuple(Change(**each) for each in repair["changes"]) if repair else ()
+
+
 def _finding(of: _Json, run: _Lazy) -> Finding:
     message, _, advice = of["message"].partition("\nHelp: ")
-    repair = of["repair"] or {"changes": ()}
     return Finding(
         of["code"],
         of["severity"],
@@ -285,13 +288,20 @@ def _finding(of: _Json, run: _Lazy) -> Finding:
         of["title"],
         of["fingerprint"],
         tuple(Related(each["text"], _place(each)) for each in of["related"]),
-        tuple(Change(**each) for each in repair["changes"]),
+        _changes(of["repair"]),
         tuple(
             Reply(each["words"], tuple(each["contracts"]), each["comment"])
             for each in of["answers"]
         ),
         run,
     )
+
+
+def _finding_of_input(of: _Json) -> Finding:
+    message = of["message"] + (": " + of["label"] if of["label"] else "")
+    message += "" if message.endswith((".", "?", "!")) else "."
+    return Finding(of["code"], of["severity"], message, of["help"] or "", _place(of), "",
+                   repair=_changes(of["repair"]))
 
 
 def _finding_of_reading(of: _Json) -> Finding:
@@ -441,11 +451,10 @@ class Report(_Told):
     def findings(self) -> Tuple[Finding, ...]:
         """Mistakes in the inputs, and what is suspicious in the tree."""
         if self._findings is None:
-            handle = self._handle
-            self._findings = tuple(
-                _finding(of, lambda number=number: handle.run_of(number))  # type: ignore
-                for number, of in enumerate(self._tree["findings"])
-            )
+            told = [_finding_of_input(of) for of in self._tree["diagnostics"]]
+            for of in self._tree["findings"]:
+                told.append(_finding(of, self._of(len(told))))
+            self._findings = tuple(told)
         return self._findings
 
     @property
@@ -466,6 +475,10 @@ class Report(_Told):
             of["note"] or "", of["why"] or "", of["stopped"] or "", of["error"] or "",
             of["states"], of["transitions"], self._named(of["name"], of["run"]),
         )
+
+    def _of(self, number: int) -> _Lazy:
+        handle = self._handle
+        return lambda: handle.run_of(number)
 
     def _named(self, name: str, told: Optional[_Json]) -> _Lazy:
         handle = self._handle
