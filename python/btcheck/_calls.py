@@ -11,7 +11,7 @@ import threading
 import xml.etree.ElementTree as ElementTree
 from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Set, Union
 
-from ._disk import Disk, ReadError
+from ._disk import Disk, Named, ReadError
 from ._library import Source, library
 from ._report import (
     Description,
@@ -65,7 +65,7 @@ _asking: Dict[int, _Request] = {}
 _numbers = itertools.count(1)
 
 
-def _answer(key: int, to: int, ask: Callable[[Disk], Optional[bytes]]) -> int:
+def _answer(key: int, to: int, ask: Callable[[Named], Optional[bytes]]) -> int:
     request = _asking[key]
     try:
         found = ask(request.disk) if request.disk else None
@@ -131,7 +131,7 @@ class _Request:
             raise MemoryError
         self.pointer: int = pointer
         self._free = library().btcheck_request_free
-        self.disk: Optional[Disk] = None
+        self.disk: Optional[Named] = None
         self.error: Optional[BaseException] = None
         self._texts = 0
 
@@ -145,7 +145,9 @@ class _Request:
     def set(self, name: str, value: Text, what: str = "") -> None:
         word = _utf8(value, what or "`%s`" % name)
         if b"\0" in word:
-            raise RequestError("%s has a zero character in it" % (what or "`%s`" % name))
+            raise RequestError(
+                "%s has a zero character in it" % (what or "`%s`" % name)
+            )
         if library().btcheck_set(self.pointer, name.encode(), word) != 0:
             self._refuse()
 
@@ -197,7 +199,7 @@ def _several(values: object) -> List[Any]:
         return list(values)  # type: ignore
     except TypeError:
         raise RequestError(
-            "%r is neither a text nor the name of a file, nor a list of them" % (values,)
+            "%r is neither a text nor the name of a file, nor a list" % (values,)
         ) from None
 
 
@@ -205,7 +207,7 @@ def _size(value: Union[int, str]) -> str:
     """Of bytes: 1000, "512M", "4G"."""
     found = re.fullmatch(r"([0-9]+)([KMGT]?)", str(value))
     if found is None or isinstance(value, bool):
-        raise RequestError("`%s` is no size; write a number of bytes, or \"4G\"" % value)
+        raise RequestError('`%s` is no size; write bytes, or "4G"' % value)
     return str(int(found.group(1)) << 10 * " KMGT".index(found.group(2) or " "))
 
 
@@ -258,8 +260,13 @@ class _Builder:
             else:
                 self.name("rules", value)
 
-    def set_tree(self, tree: object, conditions: Iterable[str]) -> bool:
-        """Whether it is a file of the file system."""
+    def set_tree(
+        self,
+        tree: object,
+        conditions: Iterable[str],
+        settings: Union[None, bool, Path],
+        has_contracts: bool,
+    ) -> None:
         if isinstance(tree, ElementTree.ElementTree):
             tree = tree.getroot()
         if isinstance(tree, ElementTree.Element):
@@ -269,11 +276,15 @@ class _Builder:
         if _is_text(tree, "<("):
             text: Any = tree
             self.request.set("tree", self.request.add_text("tree", text))
-            return False
+            self.request.disk = Named(self._named)
+            return
         self.name("tree", tree)  # type: ignore
-        return self._named[-1] not in self._files
+        if self._named[-1] in self._files:
+            self.request.disk = Named(self._named)
+        else:
+            self._read_around(settings, has_contracts)
 
-    def read_disk(self, settings: Union[None, bool, Path], has_contracts: bool) -> None:
+    def _read_around(self, settings: Union[None, bool, Path], has_contracts: bool) -> None:
         request = self.request
         tree, named = self._named[-1], self._named[:-1]
         if isinstance(settings, (str, os.PathLike)):
@@ -357,7 +368,9 @@ def _answered(name: str, request: _Request) -> _Handle:
     error = handle.error()
     if error:
         said = error[len("btcheck: "):] if error.startswith("btcheck: ") else error
-        raise (InternalError if handle.outcome is Outcome.INTERNAL else RequestError)(said)
+        if handle.outcome is Outcome.INTERNAL:
+            raise InternalError(said)
+        raise RequestError(said)
     return handle
 
 
@@ -393,8 +406,7 @@ def _ask(
             continue
         word = str(value).lower() if isinstance(value, bool) else str(value)
         made.request.set(name, word)
-    if made.set_tree(tree, conditions):
-        made.read_disk(settings, bool(leaves))
+    made.set_tree(tree, conditions, settings, bool(leaves))
     if cancel is None:
         return _answered(call, made.request)
     cancel._add(made.request)

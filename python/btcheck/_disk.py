@@ -11,7 +11,17 @@ from __future__ import annotations
 import os
 import re
 import stat
-from typing import Callable, Dict, Iterator, List, Optional, Sequence, Set, Tuple
+from typing import (
+    Callable,
+    Dict,
+    Iterable,
+    Iterator,
+    List,
+    Optional,
+    Sequence,
+    Set,
+    Tuple,
+)
 
 _SETTINGS = "btcheck.toml"
 _MOST_BYTES = 64 << 20  # of a file
@@ -141,7 +151,29 @@ def _folders_below(
                 folders.append((entry.path, down + 1))
 
 
-class Disk:
+class Named:
+    """The files that a user names, and no others."""
+
+    def __init__(self, named: Iterable[str]) -> None:
+        self._named = set(named)
+
+    def text(self, name: str) -> Optional[bytes]:
+        """None where there is no such file, or where it may not be read."""
+        try:
+            return read_file(name) if name in self._named else None
+        except FileNotFoundError:
+            return None
+
+    def package(self, name: str) -> str:
+        """The share folder of a ROS package; "" where there is none."""
+        return ""
+
+    def file_with_tree(self, name: str) -> str:
+        """The name of the file that has a tree; "" where there is none."""
+        return ""
+
+
+class Disk(Named):
     """What one tree of the file system asks for."""
 
     def __init__(self, tree: str, named: Sequence[str]) -> None:
@@ -149,7 +181,7 @@ class Disk:
         self.tree = tree
         self._here = os.getcwd()
         self._folder = os.path.dirname(os.path.join(self._here, tree))
-        self._named = {tree, *named}
+        super().__init__((tree, *named))
         repository = _repository(self._folder)
         self._roots = [repository, self._folder, *named] if repository else []
         workspace = self._workspace() if repository else ""
@@ -159,18 +191,9 @@ class Disk:
     # --- What the library asks for -------------------------------------------
 
     def text(self, name: str) -> Optional[bytes]:
-        """None where there is no such file, or where it may not be read."""
-        if name not in self._named and self._roots:
-            if not any(_is_inside(root, name) for root in self._roots):
-                return None
-        try:
-            return read_file(name)
-        except FileNotFoundError:
-            return None
-        except OSError:
-            if name in self._named:
-                raise
-            return None
+        if name in self._named:
+            return super().text(name)
+        return self._asked(name, _MOST_BYTES)
 
     def beside(self, has_contracts: bool) -> Dict[str, bytes]:
         """The XML files in the folder of the tree that can count for it, with
@@ -182,7 +205,7 @@ class Disk:
         files = {}
         for name in sorted(names) if len(names) <= _MOST_FILES else ():
             file = os.path.normpath(os.path.join(folder, name))
-            text = self._small(file)
+            text = self._asked(file, _MOST_BESIDE)
             if text is not None:
                 files[file] = text
         own = files.get(os.path.normpath(self.tree), b"")
@@ -240,7 +263,7 @@ class Disk:
                 for file in sorted(os.listdir(at)):
                     if file.endswith(".xml"):
                         path = self._as_asked(os.path.join(at, file))
-                        if pattern.search(self._small(path) or b""):
+                        if pattern.search(self._asked(path, _MOST_BESIDE) or b""):
                             found.append(path)
             if found:
                 return min(found, key=self._distance)
@@ -248,11 +271,11 @@ class Disk:
 
     # --- Where things lie -----------------------------------------------------
 
-    def _small(self, name: str) -> Optional[bytes]:
+    def _asked(self, name: str, most: int) -> Optional[bytes]:
         if self._roots and not any(_is_inside(root, name) for root in self._roots):
             return None
         try:
-            return read_file(name, _MOST_BESIDE)
+            return read_file(name, most)
         except OSError:
             return None
 

@@ -64,7 +64,10 @@ def _place() -> str:
 
 def _reason(place: str, error: OSError) -> str:
     if not os.path.exists(place):
-        return "there is no library %s; install btcheck's wheel, or set BTCHECK_LIBRARY" % place
+        return (
+            "there is no library %s; install btcheck's wheel, or set BTCHECK_LIBRARY"
+            % place
+        )
     if "GLIBC_" in str(error):
         needed = str(error).split("GLIBC_")[1].split("'")[0]
         return "btcheck needs glibc %s or later, and this system has %s" % (

@@ -258,7 +258,8 @@ _Json = Mapping[str, Any]
 
 
 def _place(at: _Json) -> Place:
-    return Place(at["file"], at.get("line", 0), at.get("column", 0), at.get("length", 0))
+    numbers = (at.get(name, 0) for name in ("line", "column", "length"))
+    return Place(at["file"], *numbers)
 
 
 def _where(at: Optional[_Json]) -> Optional[Place]:
@@ -300,8 +301,8 @@ def _finding(of: _Json, run: _Lazy) -> Finding:
 def _finding_of_input(of: _Json) -> Finding:
     message = of["message"] + (": " + of["label"] if of["label"] else "")
     message += "" if message.endswith((".", "?", "!")) else "."
-    return Finding(of["code"], of["severity"], message, of["help"] or "", _place(of), "",
-                   repair=_changes(of["repair"]))
+    return Finding(of["code"], of["severity"], message, of["help"] or "",
+                   _place(of), "", repair=_changes(of["repair"]))
 
 
 def _finding_of_reading(of: _Json) -> Finding:
@@ -571,7 +572,8 @@ class Report(_Told):
             self.tree, self.outcome.name, ", ".join(self._counts()))
 
     def __str__(self) -> str:
-        lines = ["%s: %s, %s" % (self.tree, self.outcome.name, ", ".join(self._counts()))]
+        counts = ", ".join(self._counts())
+        lines = ["%s: %s, %s" % (self.tree, self.outcome.name, counts)]
         lines += [str(of) for of in (*self.verdicts, *self.findings)]
         return "\n".join(lines)
 
@@ -672,4 +674,5 @@ class Simulation(_Told):
         return "\n".join((*self.lines, self.end))
 
     def _repr_html_(self) -> str:
-        return "<pre>%s</pre>%s" % (html.escape(str(self)), _frame(self.html(), self.tree))
+        return "<pre>%s</pre>%s" % (html.escape(str(self)),
+                                    _frame(self.html(), self.tree))

@@ -90,8 +90,8 @@ class TreeFile(pytest.File):
             yield item(RuleItem, verdict.name, verdict=verdict)
         for finding in report.findings:
             if finding.code not in _OF_RULES and not _is_of_reading(report, finding):
-                yield item(FindingItem, " ".join((finding.code, finding.node)).strip(),
-                           finding=finding)
+                name = "%s %s" % (finding.code, finding.node.split("/")[-1])
+                yield item(FindingItem, name.strip(), finding=finding)
 
 
 def _is_of_reading(report: Report, finding: Finding) -> bool:
@@ -110,7 +110,8 @@ class _Item(pytest.Item):
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> Tuple[Any, Optional[int], str]:
-        return self.path, self._line(), "%s: %s" % (os.path.relpath(self.path), self.name)
+        where = os.path.relpath(self.path)
+        return self.path, self._line(), "%s: %s" % (where, self.name)
 
     def _line(self) -> Optional[int]:
         return None
