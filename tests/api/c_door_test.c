@@ -31,6 +31,14 @@ static int source(void *context, const char *name, btcheck_text *to) {
   return 1;
 }
 
+// The one package and the one tree that nobody has added.
+static int near(void *context, const char *name, btcheck_text *to) {
+  const char *const *known = context;
+  if (strcmp(name, known[0]) != 0) return 0;
+  btcheck_text_set(to, known[1], strlen(known[1]));
+  return 1;
+}
+
 static int never(void *context, uint64_t states, uint64_t transitions,
                  double seconds) {
   int *asked = context;
@@ -82,6 +90,18 @@ int main(void) {
   EXPECT(has(btcheck_report_sarif(report), "\"2.1.0\""));
   EXPECT(btcheck_report_itf(report)[0] == '\0');
   puts(btcheck_report_json(report));
+
+  // Its run, by the name of its rule, and the page that shows it.
+  EXPECT(has(btcheck_report_runs(report), "\"btcheck-runs/1\""));
+  EXPECT(has(btcheck_report_runs(report), "\"name\":\"prove1\""));
+  EXPECT(has(btcheck_report_runs(report), "Pull -> failure"));
+  EXPECT(has(btcheck_report_html(report, "prove1"), "</html>"));
+  EXPECT(btcheck_report_html(report, "prove1") ==
+         btcheck_report_html(report, "prove1"));
+  EXPECT(btcheck_report_html(report, "prove2")[0] == '\0');
+  EXPECT(btcheck_report_html(report, "")[0] == '\0');
+  EXPECT(btcheck_report_html(report, NULL)[0] == '\0');
+  EXPECT(btcheck_report_html(NULL, "prove1")[0] == '\0');
   btcheck_report_free(report);
 
   report = btcheck_lint(request);
@@ -98,6 +118,8 @@ int main(void) {
   report = btcheck_simulate(request);
   EXPECT(has(btcheck_report_json(report), "\"tick 1: "));
   EXPECT(has(btcheck_report_itf(report), "\"states\""));
+  EXPECT(has(btcheck_report_html(report, ""), "</html>"));
+  EXPECT(btcheck_report_runs(report)[0] == '\0');
   btcheck_report_free(report);
 
   // A monitor ends a call.
@@ -115,6 +137,44 @@ int main(void) {
   EXPECT(has(btcheck_report_error(report), "btcpp-99"));
   EXPECT(has(btcheck_report_json(report), "btcheck-error/1"));
   btcheck_report_free(report);
+
+  // Packages and trees are asked for; a request that was cancelled stays so.
+  {
+    const char *package[] = {"far", "share/far"};
+    const char *holder[] = {"Inner", "inner.xml"};
+    const char asks[] =
+        "<root BTCPP_format=\"4\" main_tree_to_execute=\"N\">"
+        "<include ros_pkg=\"far\" path=\"b.xml\"/><BehaviorTree ID=\"N\">"
+        "<Sequence><SubTree ID=\"Inner\"/><SubTree ID=\"B\"/></Sequence>"
+        "</BehaviorTree></root>";
+    const char packed[] =
+        "<root BTCPP_format=\"4\"><BehaviorTree ID=\"B\"><Lift/></BehaviorTree>"
+        "</root>";
+    btcheck_request *other = btcheck_request_new();
+    EXPECT(btcheck_add_file(other, "n.xml", asks, strlen(asks)) == 0);
+    EXPECT(btcheck_add_file(other, "share/far/b.xml", packed, strlen(packed)) ==
+           0);
+    EXPECT(btcheck_set(other, "tree", "n.xml") == 0);
+    EXPECT(btcheck_set(other, "one_program", "false") == 0);
+    EXPECT(btcheck_set(other, "directory", "/robot") == 0);
+    report = btcheck_check(other);
+    EXPECT(btcheck_report_outcome(report) == BTCHECK_BAD_INPUT);
+    btcheck_report_free(report);
+    btcheck_set_packages(other, near, package);
+    btcheck_set_source(other, source, &asked);
+    btcheck_set_trees(other, near, holder);
+    report = btcheck_check(other);
+    EXPECT(btcheck_report_outcome(report) == BTCHECK_MET);
+    EXPECT(has(btcheck_report_json(report), "Lift"));
+    EXPECT(has(btcheck_report_json(report), "Pull"));
+    btcheck_report_free(report);
+    btcheck_cancel(other);
+    report = btcheck_check(other);
+    EXPECT(btcheck_report_outcome(report) == BTCHECK_UNDECIDED);
+    btcheck_report_free(report);
+    btcheck_request_free(other);
+    btcheck_cancel(NULL);
+  }
 
   report = btcheck_explain("BT2208");
   EXPECT(has(btcheck_report_json(report), "\"help\""));

@@ -67,6 +67,40 @@ TEST_CASE("findings stand where they are, with runs and repairs") {
   CHECK(report.answers.size() == 7);
 }
 
+TEST_CASE("a run is told and shown by its name") {
+  v1::Files files;
+  files.add("a.xml", tree_of("<Sequence><Go/><Stop/></Sequence>"));
+  v1::Request request = request_for("a.xml");
+  const v1::Report plain = v1::check(request, files);
+  const auto answer =
+      std::ranges::find(plain.answers, "can_fail", &v1::Answer::key);
+  REQUIRE(answer != plain.answers.end());
+  REQUIRE(answer->run);
+  CHECK(answer->run->name == "can_fail");
+  CHECK(plain.html("can_fail").find("</html>") != std::string::npos);
+  request.typed_rules = {"never Go.failure"};
+  const v1::Report report = v1::check(request, files);
+  REQUIRE(report.rules[0].run);
+  CHECK(report.rules[0].run->name == report.rules[0].name);
+  const std::string page = report.html(report.rules[0].name);
+  CHECK(page.find("never Go.failure") != std::string::npos);
+  CHECK(page == report.html(report.rules[0].name));
+  CHECK(report.html("can_fail").empty());
+  CHECK(report.html("").empty());
+  CHECK(v1::lint(request, files).html(report.rules[0].name).empty());
+  // The finding of the rule is told with the rule's run.
+  const auto found =
+      std::ranges::find(report.findings, "BT2001", &v1::Finding::code);
+  REQUIRE(found != report.findings.end());
+  REQUIRE(found->run);
+  CHECK(found->run->name == report.rules[0].name);
+  const auto runs = nlohmann::json::parse(report.runs_json())["runs"];
+  REQUIRE(runs.size() == 2);
+  CHECK(runs[0]["finding"].is_null());
+  CHECK(runs[1]["finding"] == found - report.findings.begin());
+  CHECK(runs[0]["steps"] == runs[1]["steps"]);
+}
+
 TEST_CASE("each text is parsed once, whatever is asked") {
   v1::Files files;
   files.add("a.xml", tree_of("<Sequence><Go/><SubTree ID=\"B\"/></Sequence>",

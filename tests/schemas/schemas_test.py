@@ -123,18 +123,23 @@ def look_at_monitors():
 def look_at_library():
     """What btcheck/check.h tells and the program does not."""
     door = ctypes.CDLL(library)
-    for name in ("request_new", "describe", "simulate"):
+    for name in ("request_new", "describe", "simulate", "check"):
         getattr(door, f"btcheck_{name}").restype = ctypes.c_void_p
     door.btcheck_report_json.restype = ctypes.c_char_p
+    door.btcheck_report_runs.restype = ctypes.c_char_p
     for tree in sorted(regress.glob("*/tree.btf"))[::9] + sorted(regress.glob("*/tree.xml"))[::9]:
         request = ctypes.c_void_p(door.btcheck_request_new())
         text = tree.read_bytes()
         door.btcheck_add_file(request, tree.name.encode(), text, ctypes.c_size_t(len(text)))
-        for name, value in (("tree", tree.name), ("seed", "1"), ("run_ticks", "9")):
+        for name, value in (("tree", tree.name), ("seed", "1"), ("run_ticks", "9"),
+                            ("states", "3000"), ("tries_repairs", "false")):
             door.btcheck_set(request, name.encode(), value.encode())
-        for call, schema in (("describe", "description"), ("simulate", "simulation")):
+        for call, told, schema in (("describe", "json", "description"),
+                                   ("simulate", "json", "simulation"),
+                                   ("check", "runs", "runs")):
             report = ctypes.c_void_p(getattr(door, f"btcheck_{call}")(request))
-            written(schema, door.btcheck_report_json(report), f"{tree.parent.name} {call}")
+            text = getattr(door, f"btcheck_report_{told}")(report)
+            written(schema, text, f"{tree.parent.name} {call}")
             door.btcheck_report_free(report)
         door.btcheck_request_free(request)
 
