@@ -18,7 +18,7 @@ from pathlib import Path
 
 program, sources = (Path(each).resolve() for each in sys.argv[1:])
 FILES = {"json": "r.json", "jsonl": "r.jsonl", "sarif": "r.sarif", "junit": "r.xml",
-         "github": "r.txt"}
+         "github": "r.txt", "gitlab": "r.lab"}
 complaints = []
 
 RACE = """<root BTCPP_format="4"><BehaviorTree ID="T">
@@ -90,6 +90,11 @@ def of_github(text):
     return found, int(re.search(r"^btcheck: (\d+) error", text, re.M)[1])
 
 
+def of_gitlab(text):
+    issues = json.loads(text)
+    return Counter(each["check_name"] for each in issues if each["severity"] == "major")
+
+
 def of_junit(text):
     root = xml.fromstring(text)
     failed, broken, skipped = Counter(), Counter(), 0
@@ -122,6 +127,7 @@ def agree(folder, words):
     annotated, count = of_github(texts["github"])
     expect(count == errors.total(), f"GitHub counts {count} errors")
     expect(count > 10 or annotated == errors, f"GitHub: {annotated}")
+    expect(of_gitlab(texts["gitlab"]) == errors, f"GitLab: {of_gitlab(texts['gitlab'])}")
     failed, broken, skipped = of_junit(texts["junit"])
     expect(bool(errors) == (code in (1, 2, 4)), f"exit code with these errors: {errors}")
     expect(failed <= errors and broken <= errors, f"JUnit: {failed} {broken}, not {errors}")
@@ -176,5 +182,5 @@ with tempfile.TemporaryDirectory() as name:
             complaints.append(f"no command has ended with {code}: the samples are too tame")
 
 print(*complaints, sep="\n")
-print(f"{seen.total()} reports in six formats, {len(complaints)} disagreements")
+print(f"{seen.total()} reports in seven formats, {len(complaints)} disagreements")
 sys.exit(bool(complaints))

@@ -104,7 +104,8 @@ TEST_CASE("formats that programs read keep what is in a text") {
   write(folder.path() / "a.btf", "(BehaviorTree :name t (Action :ID a))");
   write(folder.path() / "a.ltl",
         "## \xe2\x80\xae\xc2\x9b title\nproperty p: never a.success\n");
-  for (const std::string format : {"json", "sarif", "junit", "jsonl"}) {
+  for (const std::string format :
+       {"json", "sarif", "junit", "jsonl", "gitlab"}) {
     CAPTURE(format);
     const Outcome outcome = btcheck_in(
         folder.path(), "a.btf --prop a.ltl --format " + format + " 2>&1");
@@ -207,9 +208,9 @@ TEST_CASE("a text of several lines is one line wherever it is shown") {
          {"", "-v", "--prop r.ltl", "--prop r.ltl -v", "-e 'never A.failure'",
           "--format github", "--prop r.ltl --format github", "--format junit",
           "--prop r.ltl --format junit", "--format json", "--format jsonl",
-          "--format sarif", "--leaves l.leaves", "--config c.toml",
-          "--profile btcpp-4.5 --against btcpp-4.6", "--trace-dir runs",
-          "--main-tree ::error::e", "--color always"}) {
+          "--format sarif", "--format gitlab", "--leaves l.leaves",
+          "--config c.toml", "--profile btcpp-4.5 --against btcpp-4.6",
+          "--trace-dir runs", "--main-tree ::error::e", "--color always"}) {
       lines.push_back(tree + " " + words);
     }
     for (const std::string words :
@@ -249,7 +250,8 @@ TEST_CASE("a text of several lines is one line wherever it is shown") {
     // What programs read keeps orders within a line, and has its own escapes.
     const bool is_of_programs =
         has(words, "json") || has(words, "sarif") || has(words, "junit") ||
-        has(words, "export") || has(words, "init") || has(words, "leaves ") ||
+        has(words, "gitlab") || has(words, "export") || has(words, "init") ||
+        has(words, "leaves ") ||
         (has(words, "trace run.json") && !has(words, "--to text"));
     CAPTURE(outcome.text.substr(0, 3000));
     std::string text = outcome.text;

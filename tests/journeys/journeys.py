@@ -75,6 +75,7 @@ class Desk:
         self.who, self.folder = who, folder
         self.environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}"}
         self.environment.pop("GITHUB_WORKSPACE", None)
+        self.environment.pop("CI_PROJECT_DIR", None)
 
     def types(self, line, **variables):
         global steps

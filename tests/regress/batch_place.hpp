@@ -109,14 +109,15 @@ inline void generate_trees(const std::filesystem::path& folder, int count) {
 // Reports of all formats; and with runs.
 inline const std::string kFormats =
     " --format json=r.json --format junit=r.xml --format sarif=r.sarif "
-    "--format github=r.txt --format jsonl=r.jsonl --report r.html ";
+    "--format github=r.txt --format gitlab=r.lab --format jsonl=r.jsonl "
+    "--report r.html ";
 inline const std::string kReports = kFormats + "--trace-dir runs ";
 
 // What a batch has printed and written.
 inline std::string reports_in(const BatchPlace& place, const Outcome& outcome) {
   std::string all = std::to_string(outcome.code) + outcome.text;
   for (const char* file :
-       {"r.json", "r.xml", "r.sarif", "r.txt", "r.jsonl", "r.html"}) {
+       {"r.json", "r.xml", "r.sarif", "r.txt", "r.lab", "r.jsonl", "r.html"}) {
     const std::string text = file_text(place.path() / file);
     CHECK(!text.empty());
     all += text;

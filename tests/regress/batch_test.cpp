@@ -42,7 +42,8 @@ TEST_CASE(
 TEST_CASE("every format has the same entries, by one job as by two") {
   const BatchPlace place;
   generate_trees(place.path() / "trees", 40);
-  for (const char* format : {"json", "jsonl", "sarif", "junit", "github"}) {
+  for (const char* format :
+       {"json", "jsonl", "sarif", "junit", "github", "gitlab"}) {
     CAPTURE(format);
     const std::string words = std::string("trees -q --format ") + format;
     const Outcome one = place.run(words + " --jobs 1 2>/dev/null");
@@ -61,7 +62,7 @@ TEST_CASE("killed half-way and resumed, a batch ends with the same reports") {
   const std::string words = "examples --jobs 1" + kReports;
   const std::string whole = reports_in(place, place.run(words + "2>err"));
   for (const char* file :
-       {"r.json", "r.xml", "r.sarif", "r.txt", "r.jsonl", "r.html"}) {
+       {"r.json", "r.xml", "r.sarif", "r.txt", "r.lab", "r.jsonl", "r.html"}) {
     fs::remove(place.path() / file);
   }
   // The kill comes when three entries are done.

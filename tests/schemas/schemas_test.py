@@ -58,6 +58,14 @@ def lines(schema, text, what):
         written(schema, line, what)
 
 
+def issues(text, what):
+    """GitLab keeps one issue of each fingerprint."""
+    written("gitlab-code-quality", text, what)
+    prints = [each["fingerprint"] for each in json.loads(text)]
+    if len(set(prints)) < len(prints):
+        faults.append(f"{what}: two issues have one fingerprint")
+
+
 def look_at_tree(folder, tree, out):
     what = f"{folder.name}/{tree}"
     runs = out / "runs" / folder.name
@@ -65,13 +73,16 @@ def look_at_tree(folder, tree, out):
     rules = [word for file in sorted(folder.glob("*.ltl")) for word in ("--prop", file.name)]
     for asked in ([], rules) if rules else ([],):
         report = btcheck(folder, "check", tree, *asked, *limits, "--format", "json",
-                         "--format", f"jsonl={out}/lines", "--trace-dir", runs,
-                         "--write-baseline", out / "baseline.json")
+                         "--format", f"jsonl={out}/lines", "--format", f"gitlab={out}/issues",
+                         "--trace-dir", runs, "--write-baseline", out / "baseline.json")
         written("report", report, what)
+        issues((out / "issues").read_text(), what)
         lines("report-line", (out / "lines").read_text(), what)
         if (out / "baseline.json").exists():
             written("baseline", (out / "baseline.json").read_text(), what)
-    written("report", btcheck(folder, "lint", tree, *rules, "--format", "json"), what)
+    written("report", btcheck(folder, "lint", tree, *rules, "--format", "json",
+                              "--format", f"gitlab={out}/issues"), what)
+    issues((out / "issues").read_text(), f"lint {what}")
     space = btcheck(folder, "space", tree, *limits, "--stats", "json")
     if space:  # a tree that can be read
         written("space", space, what)
@@ -147,9 +158,10 @@ def look_at_library():
 def look_at_batches(out):
     for folder in (regress / "workspace", sources / "properties/action"):
         report = btcheck(folder.parent, "batch", folder.name, "-q", "--format", "json",
-                         "--format", f"jsonl={out}/batch")
+                         "--format", f"jsonl={out}/batch", "--format", f"gitlab={out}/issues")
         written("report", report, f"batch {folder.name}")
         lines("report-line", (out / "batch").read_text(), f"batch {folder.name}")
+        issues((out / "issues").read_text(), f"batch {folder.name}")
     # Long enough for a line of progress, with a run that has a loop.
     lines("report-line", btcheck(sources / "examples", "nav2.btf", "--timeout", 2,
                                  "--format", "jsonl"), "progress")
@@ -180,7 +192,8 @@ def unseen(schema):
 
 
 def refuses(schema, document):
-    return not validators[schema].is_valid(document)
+    is_list = isinstance(documents[schema][0], list)
+    return not validators[schema].is_valid([document] if is_list else document)
 
 
 def required_of(schema, document):
@@ -200,12 +213,15 @@ def check_schemas():
         if unseen(schema):
             faults.append(f"{schema}.schema.json has members that nothing writes: "
                           f"{', '.join(sorted(unseen(schema)))}")
+        own = validator.schema
         document = max(documents[schema], key=lambda one: len(json.dumps(one)))
+        if isinstance(document, list):
+            own, document = own["items"], document[0]
         if schema == "monitor-answer":  # an event of any form, and a verdict
             if not refuses(schema, {"topic": "/odom"}) or not refuses(schema, {"verdict": 1}):
                 faults.append("monitor-answer.schema.json takes an event without a verdict")
             continue
-        for name in required_of(validator.schema, document):
+        for name in required_of(own, document):
             without = {key: value for key, value in document.items() if key != name}
             if not refuses(schema, without):
                 faults.append(f"{schema}.schema.json takes a document without `{name}`")

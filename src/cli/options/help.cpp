@@ -300,10 +300,11 @@ std::string man_page() {
   for (std::size_t code = 0; code < kExitCodes.size(); ++code) {
     text += item(std::to_string(code), kExitCodes[code]);
   }
-  text += ".SH ENVIRONMENT\n" +
-          item("NO_COLOR", "When it is set, messages have no colours.") +
-          item("GITHUB_WORKSPACE",
-               "Where reports name files from, as GitHub counts them.");
+  text +=
+      ".SH ENVIRONMENT\n" +
+      item("NO_COLOR", "When it is set, messages have no colours.") +
+      item("GITHUB_WORKSPACE, CI_PROJECT_DIR",
+           "Where reports name files from, as GitHub and GitLab count them.");
   return text + ".SH EXAMPLES\n" + std::string(kExamples);
 }
 

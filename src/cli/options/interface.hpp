@@ -23,7 +23,8 @@ enum class ReportFormat : std::uint8_t {
   JsonLines,
   Sarif,
   JUnit,
-  GitHub
+  GitHub,
+  GitLab
 };
 
 struct ReportTarget {

@@ -41,6 +41,8 @@ std::string formatted(const ReportTarget& target, const Report& report) {
       return junit_text(report);
     case ReportFormat::GitHub:
       return harmless(github_text(report));
+    case ReportFormat::GitLab:
+      return gitlab_text(report);
   }
   return {};
 }
@@ -93,9 +95,12 @@ Report new_report(double seconds) {
   std::error_code fault;
   report.directory = std::filesystem::current_path(fault).string();
   report.root = report.directory;
-  // A job may run in a folder of the repository; GitHub counts from its root.
-  const char* workspace = std::getenv("GITHUB_WORKSPACE");
-  if (workspace != nullptr && *workspace == '/') report.root = workspace;
+  // A job may run in a folder of the repository; GitHub and GitLab count from
+  // its root.
+  for (const char* name : {"GITHUB_WORKSPACE", "CI_PROJECT_DIR"}) {
+    const char* root = std::getenv(name);
+    if (root != nullptr && *root == '/') report.root = root;
+  }
   const auto begin = std::time(nullptr) - static_cast<std::time_t>(seconds);
   report.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(begin));
   return report;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Reports for other programs: JSON, SARIF, JUnit XML, GitHub Actions. And the
-// result of each tree in a word and in numbers: for the table of a batch, its
-// page and the summary of a job.
+// Reports for other programs: JSON, SARIF, JUnit XML, GitHub Actions, GitLab.
+// And the result of each tree in a word and in numbers: for the table of a
+// batch, its page and the summary of a job.
 #pragma once
 
 #include <array>
@@ -50,6 +50,10 @@ std::string space_json(const SpaceReport& report, const SpaceContext& context);
 // out.
 inline constexpr std::size_t kMostFlowSteps = 1000;
 std::string sarif_text(const Report& report);
+
+// Findings as GitLab's code quality report, whose widget compares a merge
+// request with its target: what the exit code counts is of severity "major".
+std::string gitlab_text(const Report& report);
 
 // JUnit XML: a suite for each tree, a case for each property, or for each
 // question of the default report about the tree as a whole, and for each

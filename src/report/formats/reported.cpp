@@ -276,6 +276,11 @@ std::string fingerprint_of(const Report& report, const Finding& finding) {
       finding.identity);
 }
 
+std::string Fingerprints::next(const Finding& finding) {
+  const std::string print = fingerprint_of(report_, finding);
+  return fmt::format("{}:{}", print, ++seen_[print]);
+}
+
 bool is_of_tree(const Finding& finding) {
   return finding.code.starts_with("BT22") || finding.code.starts_with("BT25");
 }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -212,6 +213,18 @@ std::vector<std::string> trace_names(const BehaviorTree& tree,
 
 // The same for the same finding wherever in a repository the program is run.
 std::string fingerprint_of(const Report& report, const Finding& finding);
+
+// The same for each finding of a report, once: equal ones are told apart by a
+// number, "0a1b2c3d4e5f6789:2".
+class Fingerprints {
+ public:
+  explicit Fingerprints(const Report& report) : report_(report) {}
+  std::string next(const Finding& finding);
+
+ private:
+  const Report& report_;
+  std::map<std::string, int> seen_;
+};
 
 // The findings of a tree, those of its diagnostics first; and that it was not
 // checked, where others were.

@@ -66,10 +66,10 @@ class ResultWriter {
   ResultWriter(const Report& report, const Rules& rules)
       : report_(report),
         rules_(rules),
-        has_baseline_(
-            std::ranges::any_of(report.trees, [](const ReportedTree& tree) {
-              return tree.judged.has_baseline;
-            })) {}
+        has_baseline_(std::ranges::any_of(
+            report.trees,
+            [](const ReportedTree& tree) { return tree.judged.has_baseline; })),
+        fingerprints_(report) {}
 
   Json result(const Finding& finding) {
     Json place = {{"physicalLocation", location(finding.place)}};
@@ -87,7 +87,7 @@ class ResultWriter {
       result.add("relatedLocations", related(finding.related));
     }
     result.add("partialFingerprints",
-               {{"primaryLocationLineHash", unique_fingerprint(finding)}});
+               {{"primaryLocationLineHash", fingerprints_.next(finding)}});
     // What the baseline has is in no report.
     if (has_baseline_) result.add("baselineState", "new");
     if (finding.run && !finding.run->steps.empty()) {
@@ -149,12 +149,6 @@ class ResultWriter {
             {"artifactChanges", files}};
   }
 
-  // Tells equal findings at one place apart.
-  std::string unique_fingerprint(const Finding& finding) {
-    const std::string print = fingerprint_of(report_, finding);
-    return fmt::format("{}:{}", print, ++seen_[print]);
-  }
-
   static std::string step_text(const ToldRun& run, const ToldStep& step) {
     if (step.kind == ToldStep::Kind::Time) return step.text;
     if (step.kind == ToldStep::Kind::Remark) return "-- " + step.text;
@@ -198,7 +192,7 @@ class ResultWriter {
   const Report& report_;
   const Rules& rules_;
   bool has_baseline_;
-  std::map<std::string, int> seen_;
+  Fingerprints fingerprints_;
 };
 
 // "btcheck/drone3/": two trees' results do not replace each other.
