@@ -103,5 +103,32 @@ TEST_CASE("of a long run the end is told") {
   CHECK(line.ends_with("the last (chosen)"));
 }
 
+TEST_CASE("the page of the job has what is wrong, then what else was found") {
+  const std::string wrong =
+      job_summary_text(report_of(kSmallTree,
+                                 "property p: never a.failure\n"
+                                 "property q: a.halted leadsto c.ticked\n"));
+  const std::size_t row = wrong.find("| trees/t.btf | VIOLATED | p: ");
+  const std::size_t others = wrong.find(
+      "<details><summary>1 warning</summary>\n\n| | where | what |\n"
+      "|---|---|---|\n| warning BT2004 | rules/p.ltl:2:10 | q holds ");
+  CHECK(row != wrong.npos);
+  CHECK(others != wrong.npos);
+  CHECK(row < others);
+  CHECK(others < wrong.find("<summary>every tree</summary>"));
+}
+
+TEST_CASE("no text ends a row, a cell or what is folded in the page") {
+  Report report = report_of(kSmallTree, "");
+  Finding& finding = report.trees[0].findings.at(0);
+  finding.message = "</details> | ```\nnext";
+  finding.place.file = "a|b\n<img>.btf";
+  const std::string page = job_summary_text(report);
+  CHECK(page.find("| note " + finding.code +
+                  " | a&#124;b &#60;img&#62;.btf:2:3 | "
+                  "&#60;/details&#62; &#124; &#96;&#96;&#96; |\n") !=
+        page.npos);
+}
+
 }  // namespace
 }  // namespace btcheck::github_test

@@ -287,6 +287,24 @@ TEST_CASE("a job's summary is added to the page that GitHub names") {
                 "before\n### btcheck: 1 entry: 0 met, 1 missed; 1 error\n"));
 }
 
+TEST_CASE(
+    "of runs that are kept, wrong ones are pictures on the page of a job") {
+  const BatchPlace place;
+  put_pair(place.path() / "f/a", "never root.success");
+  put_pair(place.path() / "f/b", "possible root.success");
+  const std::string setting = "GITHUB_STEP_SUMMARY=page.md ";
+  const std::string words = "f --format github --trace-dir runs 2>/dev/null";
+  for (const char* how : {"", "--resume "}) {
+    fs::remove(place.path() / "page.md");
+    run_in(place.path(), setting + kBatch + how + words);
+    const std::string page = file_text(place.path() / "page.md");
+    CAPTURE(page);
+    CHECK(lines_with(page, "```mermaid") == 1);
+    CHECK(page.find("<details><summary>f/a.ltl: VIOLATED p</summary>\n\n"
+                    "```mermaid\nflowchart LR\n  n0[") != page.npos);
+  }
+}
+
 TEST_CASE("a report that cannot be written is refused before anything else") {
   const BatchPlace place;
   put_pair(place.path() / "f/a", "possible root.success");

@@ -60,14 +60,6 @@ std::filesystem::path folder_of(const std::string& file) {
   return folder.empty() ? std::filesystem::path(".") : folder;
 }
 
-// The page that GitHub shows of a job, where it says that there is one. Other
-// steps write to it as well.
-std::string add_job_summary(const Report& report) {
-  const char* file = std::getenv("GITHUB_STEP_SUMMARY");
-  if (file == nullptr || *file == '\0') return {};
-  return append_file(file, job_summary_text(report));
-}
-
 }  // namespace
 
 Layout layout_of(const Options& options) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "check/check.hpp"
-#include "cli/options/interface.hpp"
+#include "cli/options/options.hpp"
 #include "report/formats/reported.hpp"
 #include "trace/formats/text.hpp"
 
@@ -37,6 +37,10 @@ Report new_report(double seconds);
 std::string write_report(const Options& options,
                          const std::vector<ReportTarget>& targets,
                          const Report& report, const std::string& text);
+
+// Adds the report to the page of a job, where GitHub says that there is one,
+// with pictures of runs that are kept. Returns what went wrong, or "".
+std::string add_job_summary(const Report& report);
 
 // A check that is done: the tree as the user calls it, and what it took.
 struct CheckCost {

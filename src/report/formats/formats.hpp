@@ -70,7 +70,7 @@ inline constexpr std::size_t kMostAnnotations = 10;
 std::string github_text(const Report& report);
 
 // The page that GitHub shows of a job, in Markdown: what somebody should look
-// at, then a folded table of all trees.
+// at, then, folded, what else was found and a table of all trees.
 std::string job_summary_text(const Report& report);
 
 // The first five are those of ExitCode, in its order.

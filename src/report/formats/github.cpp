@@ -79,10 +79,10 @@ std::string shortfall_rows(const ReportedTree& tree, std::size_t& left) {
 }
 
 // GitHub allows one mebibyte for the summary of a step.
-constexpr std::size_t kMostShortfalls = 200;
+constexpr std::size_t kMostRows = 200;
 
 std::string shortfalls_table(const Report& report) {
-  std::size_t left = kMostShortfalls;
+  std::size_t left = kMostRows;
   std::string rows;
   for (const ReportedTree& tree : report.trees) {
     rows += shortfall_rows(tree, left);
@@ -90,6 +90,32 @@ std::string shortfalls_table(const Report& report) {
   if (rows.empty()) return {};
   return "| tree | | what |\n|---|---|---|\n" + rows +
          (left == 0 ? "\nOthers are left out here.\n\n" : "\n");
+}
+
+// What else was found: no error, and no limit, which has a row above.
+std::string others_table(const Report& report) {
+  std::string rows;
+  std::vector<Finding> others;
+  for (const ReportedTree& tree : report.trees) {
+    for (Finding& finding : all_findings(tree)) {
+      if (finding.severity == Severity::Error) continue;
+      if (finding.code == rule::kUndecided) continue;
+      const std::string_view words(finding.message);
+      if (others.size() < kMostRows) {
+        rows += fmt::format("| {} {} | {} | {} |\n",
+                            severity_name(finding.severity), finding.code,
+                            markdown_text(place_text(finding.place)),
+                            markdown_text(words.substr(0, words.find('\n'))));
+      }
+      others.push_back(std::move(finding));
+    }
+  }
+  if (rows.empty()) return {};
+  return fmt::format(
+      "<details><summary>{}</summary>\n\n| | where | what |\n|---|---|---|\n"
+      "{}{}\n</details>\n\n",
+      levels_text(others), rows,
+      others.size() > kMostRows ? "\nOthers are left out here.\n" : "");
 }
 
 }  // namespace
@@ -118,7 +144,7 @@ std::string github_text(const Report& report) {
 
 std::string job_summary_text(const Report& report) {
   std::string text = fmt::format("### btcheck: {}\n\n", sum_of(report));
-  text += shortfalls_table(report);
+  text += shortfalls_table(report) + others_table(report);
   text += fmt::format(
       "<details><summary>every tree</summary>\n\n"
       "| result | tree | hold | violated | undecided | states | time |\n"
