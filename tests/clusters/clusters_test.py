@@ -143,8 +143,8 @@ def check_actions(folder):
     expect(jobs["report"]["needs"] == "check", "the report waits for nothing")
     expect(jobs["report"]["if"] == "always()", "no report of what is broken")
     for step in check + report:
-        only(step, "uses", "run", "if", "with")
-    (line,) = [step["run"] for step in check if "run" in step]
+        only(step, "uses", "run", "if", "with", "name", "env")
+    (line,) = [step["run"] for step in check if "btcheck batch" in step.get("run", "")]
     (upload,) = [step for step in check if "upload" in step.get("uses", "")]
     expect(upload["if"] == "always()", "results of what is broken are lost")
     expect(upload["with"] == {"name": "results-${{ matrix.part }}",
@@ -160,7 +160,7 @@ def check_actions(folder):
         (own / "bin").symlink_to(folder / "bin")
         run(["bash", "-c", line.replace("${{ matrix.part }}", str(part))], own)
         shutil.copytree(own / "results", folder / "results", dirs_exist_ok=True)
-    (joins,) = [step["run"] for step in report if "run" in step]
+    (joins,) = [step["run"] for step in report if "btcheck batch" in step.get("run", "")]
     run(["bash", "-c", joins], folder, code=1,
         GITHUB_STEP_SUMMARY=str(folder / "page"))
     expect((folder / "report.html").exists(), "no report")
