@@ -245,7 +245,9 @@ def check_programs():
         archive = job.place / "btcheck-1-linux.tar.gz"
         with tarfile.open(archive, "w:gz") as made:
             made.add(program, "btcheck-1/bin/btcheck")
-        for name in (str(archive), f"{job.place}/btcheck-*.tar.gz"):
+        # With a colon in it tar would take it for another machine's.
+        shutil.copy(archive, job.checkout / "other:1.tar.gz")
+        for name in (str(archive), f"{job.place}/btcheck-*.tar.gz", "other:1.tar.gz"):
             code, printed, outputs = job.runs(binary="", archive=name)
             expect(code == 0 and outputs["program"].startswith(outputs["folder"]), printed)
         version = subprocess.run([program, "--version"], capture_output=True, text=True).stdout
