@@ -242,12 +242,12 @@ def check_cache():
 
 def check_programs():
     with Job() as job:
-        archive = job.place / "btcheck-1-linux.tar.gz"
-        with tarfile.open(archive, "w:gz") as made:
+        archive = job.place / "btcheck-1-linux.tar.xz"
+        with tarfile.open(archive, "w:xz", preset=0) as made:
             made.add(program, "btcheck-1/bin/btcheck")
         # With a colon in it tar would take it for another machine's.
-        shutil.copy(archive, job.checkout / "other:1.tar.gz")
-        for name in (str(archive), f"{job.place}/btcheck-*.tar.gz", "other:1.tar.gz"):
+        shutil.copy(archive, job.checkout / "other:1.tar.xz")
+        for name in (str(archive), f"{job.place}/btcheck-*.tar.xz", "other:1.tar.xz"):
             code, printed, outputs = job.runs(binary="", archive=name)
             expect(code == 0 and outputs["program"].startswith(outputs["folder"]), printed)
         version = subprocess.run([program, "--version"], capture_output=True, text=True).stdout
@@ -263,7 +263,7 @@ def check_programs():
         refused("no bin/btcheck in", binary="", archive=str(other))
         (job.place / "no.tar.gz").write_text("no archive")
         refused("no bin/btcheck in", binary="", archive=f"{job.place}/no.tar.gz")
-        refused("3 files are called", binary="", archive=f"{job.place}/*.tar.gz")
+        refused("3 files are called", binary="", archive=f"{job.place}/*.tar.*")
     refused("0 files are called", binary="", archive="no-such-*.tar.gz")
     refused("there is no program no/such", binary="no/such")
     refused("there is no program check", binary="check")  # a function of the script

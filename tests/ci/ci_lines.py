@@ -95,6 +95,9 @@ def check_names():
     table = dict(re.findall(r"^\| `(\w+)` \| (?:`(.*?)`)? ?\|", page, re.M))
     if table != {name: of["default"] for name, of in inputs.items()}:
         fail(f"the table of inputs is not that of action.yml: {table}")
+    if set(re.findall(r'"(?:btcheck==)?(\d[\d.]*)"', (sources / "pyproject.toml").read_text())) != {
+            version}:
+        fail("pyproject.toml has another version")
     recipe = re.search(r"-f (\S+)", container)[1]
     if not (sources / recipe).exists():
         fail(f"there is no `{recipe}`")
@@ -123,7 +126,7 @@ def fill(folder):
     (folder / "trees/.btcheck-results").write_text("of a stranger")
     (folder / "btcheck").symlink_to(sources)
     (folder / "temp").mkdir()
-    with tarfile.open(folder / f"temp/btcheck-{version}-linux-x86_64.tar.gz", "w:gz") as release:
+    with tarfile.open(folder / f"temp/btcheck-{version}-linux-x86_64.tar.xz", "w:xz", preset=0) as release:
         release.add(program, f"btcheck-{version}/bin/btcheck")
 
 

@@ -3,8 +3,8 @@
 #
 # The hooks of .pre-commit-hooks.yaml, run by pre-commit itself in a repository
 # with trees, without a network: as `language: system`, with the program on the
-# path, and, where a wheel is given, installed from it by pre-commit. What takes
-# a network, that pre-commit installs this repository, is not tried.
+# path, and, where a wheel is given, as they are: pre-commit makes an environment
+# and installs the wheel into it, from its folder in the place of an index.
 #   precommit_test.sh PROGRAM [WHEEL]
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -18,7 +18,9 @@ for needed in pre-commit git; do
 done
 folder=$(mktemp -d)
 trap 'rm -rf --one-file-system "$folder"' EXIT
-export HOME=$folder PRE_COMMIT_HOME=$folder/cache PIP_NO_INDEX=1
+export HOME=$folder PRE_COMMIT_HOME=$folder/cache
+# setuptools is that of the environment. (0 is what turns the isolation off.)
+export PIP_NO_INDEX=1 PIP_FIND_LINKS=${wheel%/*} PIP_NO_BUILD_ISOLATION=0
 export GIT_AUTHOR_NAME=t GIT_AUTHOR_EMAIL=t@localhost GIT_CONFIG_NOSYSTEM=1
 export GIT_COMMITTER_NAME=t GIT_COMMITTER_EMAIL=t@localhost
 mkdir "$folder/bin"
@@ -46,7 +48,7 @@ says() {
 
 pre-commit validate-manifest "$root/.pre-commit-hooks.yaml"
 git init -q hooks
-cp "$root/.pre-commit-hooks.yaml" hooks
+cp "$root/.pre-commit-hooks.yaml" "$root/pyproject.toml" hooks
 git -C hooks add -A
 git -C hooks commit -q -m hooks
 revision=$(git -C hooks rev-parse HEAD)
@@ -92,28 +94,15 @@ PATH=$folder/bin:$PATH try_hooks installed "repos:
     hooks:
       - { id: btcheck, language: system }
       - { id: btcheck-lint, language: system }"
-echo "precommit_test.sh: hooks of the repository, as language: system"
+echo "precommit_test.sh: hooks with the program that is installed: as expected"
 
 if [ -n "$wheel" ]; then
   try_hooks wheel "repos:
-  - repo: local
-    hooks:
-      - id: btcheck
-        name: behavior trees
-        entry: btcheck batch . --resume -q --timeout 20
-        language: python
-        additional_dependencies: ['$wheel']
-        pass_filenames: false
-        files: '\\.(btf|xml|ltl)\$'
-      - id: btcheck-lint
-        name: behavior trees, without a search
-        entry: btcheck lint .
-        language: python
-        additional_dependencies: ['$wheel']
-        pass_filenames: false
-        files: '\\.(btf|xml)\$'"
-  echo "precommit_test.sh: hooks with the wheel, as language: python"
+  - repo: file://$folder/hooks
+    rev: $revision
+    hooks: [{ id: btcheck }, { id: btcheck-lint }]"
+  echo "precommit_test.sh: hooks with the wheel: as expected"
 else
-  echo "precommit_test.sh: no wheel is given: language: python is not tried"
+  echo "precommit_test.sh: no wheel is given: that pre-commit installs one is not tried"
 fi
 echo "precommit_test.sh: passed, with $(pre-commit --version)"
