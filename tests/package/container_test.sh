@@ -15,7 +15,7 @@ recipe=$root/contrib/container/Containerfile
 }
 folder=$(mktemp -d)
 # Of trees that are mounted, only the mount goes.
-trap 'umount "$folder/image/trees" 2>/dev/null; rm -rf --one-file-system "$folder"' EXIT
+trap 'umount "$folder/image/trees" 2>/dev/null || true; rm -rf --one-file-system "$folder"' EXIT
 cd "$folder"
 
 fail() {
