@@ -265,6 +265,7 @@ def check_programs():
         refused("no bin/btcheck in", binary="", archive=f"{job.place}/no.tar.gz")
         refused("3 files are called", binary="", archive=f"{job.place}/*.tar.*")
     refused("0 files are called", binary="", archive="no-such-*.tar.gz")
+    refused("0 files are called", binary="", archive="no-such.tar.gz")
     refused("there is no program no/such", binary="no/such")
     refused("there is no program check", binary="check")  # a function of the script
     refused("is not btcheck", binary="true")
