@@ -10,7 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from setuptools import setup
+from setuptools import Distribution, setup
 from setuptools.command.build_py import build_py
 from wheel.bdist_wheel import bdist_wheel
 
@@ -74,14 +74,17 @@ class Build(build_py):
             (to / name).chmod(0o755)
 
 
-class Wheel(bdist_wheel):
-    def finalize_options(self) -> None:
-        super().finalize_options()
-        self.root_is_pure = False
+class Binary(Distribution):
+    """It has files for one kind of machine."""
 
+    def has_ext_modules(self) -> bool:
+        return True
+
+
+class Wheel(bdist_wheel):
     def get_tag(self) -> "tuple[str, str, str]":
         return "py3", "none", platform()
 
 
 setup(version=version(), cmdclass={"build_py": Build, "bdist_wheel": Wheel},
-      license_files=["LICENSE"])
+      distclass=Binary, license_files=["LICENSE", "copyright"])

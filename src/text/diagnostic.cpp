@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <iterator>
 #include <utility>
@@ -272,6 +273,25 @@ std::size_t edit_distance(std::string_view left, std::string_view right) {
   return row[right.size()];
 }
 
+namespace {
+
+// The letters that one word has and the other has not: it takes as many edits
+// at least.
+std::size_t letters_apart(std::string_view left, std::string_view right) {
+  std::array<int, 256> count{};
+  for (const char c : left) ++count[static_cast<unsigned char>(c)];
+  for (const char c : right) --count[static_cast<unsigned char>(c)];
+  int more = 0;
+  int fewer = 0;
+  for (const int each : count) {
+    more += std::max(each, 0);
+    fewer -= std::min(each, 0);
+  }
+  return static_cast<std::size_t>(std::max(more, fewer));
+}
+
+}  // namespace
+
 std::optional<std::string> closest_match(
     std::string_view word, std::span<const std::string> candidates) {
   constexpr std::size_t kLongest = 64;
@@ -283,8 +303,13 @@ std::optional<std::string> closest_match(
     const auto longer = std::max(candidate.size(), wanted.size());
     const std::size_t allowed = longer / 3;
     if (longer > kLongest || longer - shorter > allowed) continue;
-    const std::size_t distance = edit_distance(wanted, lowered(candidate));
-    if (distance > allowed || distance >= least) continue;
+    const std::string other = lowered(candidate);
+    const auto is_far = [&](std::size_t distance) {
+      return distance > allowed || distance >= least;
+    };
+    if (is_far(letters_apart(wanted, other))) continue;
+    const std::size_t distance = edit_distance(wanted, other);
+    if (is_far(distance)) continue;
     least = distance;
     nearest = candidate;
   }

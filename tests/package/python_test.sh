@@ -48,15 +48,15 @@ for program in "$bin/btcheck" "$bin/python -m btcheck"; do
 done
 
 # The tests of the package, those of the documentation among them.
-export BTCHECK_SOURCES=$sources BTCHECK_PROGRAM="$folder/venv/bin/btcheck"
-"$bin/python" -B -m pytest -q -p no:cacheprovider -p pytester --rootdir "$folder" \
+export BTCHECK_SOURCES=$sources TESTED_PROGRAM=$bin/btcheck
+timeout 300 "$bin/python" -B -m pytest -q -p no:cacheprovider -p pytester --rootdir "$folder" \
   "$sources/tests/python" >log 2>&1 || fail "tests/python"
 tail -1 log
 
 # The plugin is found without a word.
 mkdir trees
 cp "$sources"/examples/nav2/main/navigate_to_pose_w_replanning_and_recovery.* trees
-"$bin/python" -B -m pytest -q -p no:cacheprovider --btcheck trees >log 2>&1 ||
+timeout 300 "$bin/python" -B -m pytest -q -p no:cacheprovider --btcheck trees >log 2>&1 ||
   fail "pytest --btcheck"
 grep -qE '^[0-9]+ passed' log || fail "pytest --btcheck has found nothing"
 

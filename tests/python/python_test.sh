@@ -6,7 +6,7 @@
 #   python_test.sh LIBRARY PROGRAM SOURCES
 set -euo pipefail
 sources=$3
-export BTCHECK_LIBRARY=$1 BTCHECK_PROGRAM=$2 BTCHECK_SOURCES=$3
+export BTCHECK_LIBRARY=$1 BTCHECK_PROGRAM=$2 BTCHECK_SOURCES=$3 TESTED_PROGRAM=$2
 export PYTHONPATH=$sources/python PYTHONDONTWRITEBYTECODE=1
 python=/usr/bin/python3
 [ -x $python ] || python=python3
@@ -22,5 +22,5 @@ fi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-$python -m pytest -q -p no:cacheprovider -p btcheck.pytest_plugin -p pytester \
+timeout 300 $python -m pytest -q -p no:cacheprovider -p btcheck.pytest_plugin -p pytester \
   --rootdir "$folder" "$sources/tests/python" || exit 1

@@ -142,7 +142,7 @@ def test_a_report_in_another_process():
 
 
 def program(*words):
-    done = subprocess.run([os.environ["BTCHECK_PROGRAM"], *map(str, words), "--format",
+    done = subprocess.run([os.environ["TESTED_PROGRAM"], *map(str, words), "--format",
                            "json"], capture_output=True, text=True, timeout=60)
     return comparable(done.stdout)
 
@@ -250,9 +250,10 @@ def test_a_library_that_does_not_fit_is_told_in_a_sentence(tmp_path):
 
 def test_the_program_is_carried():
     done = subprocess.run([sys.executable, "-m", "btcheck", "--version"],
-                          capture_output=True, text=True)
+                          capture_output=True, text=True, timeout=60)
     assert done.returncode == 0 and btcheck.__version__ in done.stdout
-    gone = subprocess.run([sys.executable, "-m", "btcheck"], capture_output=True, text=True,
+    gone = subprocess.run([sys.executable, "-m", "btcheck"], capture_output=True,
+                          text=True, timeout=60,
                           env={**os.environ, "BTCHECK_PROGRAM": "/gone"})
     assert gone.returncode == 2 and "cannot start /gone" in gone.stderr
     assert "Traceback" not in gone.stderr
