@@ -182,7 +182,8 @@ const std::map<std::string_view, std::string> kValues = {
     {"-q", "-q"},
     {"-v", "-v"},
     {"--help", "--help"},
-    {"--version", "--version"}};
+    {"--version", "--version"},
+    {"--licenses", "--licenses"}};
 
 // Why an option makes no difference to a command, of the tree it names or of
 // both. Everything else has to.

@@ -509,6 +509,7 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
                   ExitCode::Met};
   }
   if (words.has("--version")) return Answer{version_text(), ExitCode::Met};
+  if (words.has("--licenses")) return Answer{licenses_text(), ExitCode::Met};
   Options options;
   options.command = words.command;
   settle_inputs(words, options);

@@ -720,7 +720,10 @@ constexpr OptionRow kOptions[] = {
      .help = "a screen of help; COMMAND --help: of one command; --help all: "
              "every option",
      .commands = kEvery},
-    {.name = "--version", .help = "print the version", .commands = kEvery}};
+    {.name = "--version", .help = "print the version", .commands = kEvery},
+    {.name = "--licenses",
+     .help = "print the licences of btcheck and of what it is linked with",
+     .commands = kEvery}};
 
 }  // namespace
 

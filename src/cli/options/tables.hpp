@@ -123,6 +123,8 @@ std::string help_text();
 std::string help_text(Command command);
 
 std::string version_text();
+// Of btcheck and of everything that is linked into the packaged program.
+std::string licenses_text();
 
 // The man page as troff, for section 1.
 std::string man_page();
