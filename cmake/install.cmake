@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 #
 # What is installed, and the Debian packages made of it: `btcheck`, the program
-# with its page, completions and CMake functions, and `libbtcheck-dev`, the
-# library with its headers.
+# with its page, completions and CMake functions, which needs no other package
+# where it is linked statically, and `libbtcheck-dev`, the library with its
+# headers.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -19,8 +20,8 @@ target_include_directories(btcheck_library INTERFACE
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/btcheck>)
 target_compile_features(btcheck_library INTERFACE cxx_std_20)
 target_link_libraries(btcheck_library INTERFACE
-  fmt::fmt TBB::tbb tinyxml2::tinyxml2 zstd::libzstd_shared SQLite::SQLite3
-  lz4 Boost::headers)
+  fmt::fmt TBB::tbb tinyxml2::tinyxml2 SQLite::SQLite3 lz4 Boost::headers
+  $<INSTALL_INTERFACE:zstd::libzstd_shared>)
 
 # The same behind the one header for programs that check trees.
 add_library(btcheck_door INTERFACE)
@@ -30,19 +31,25 @@ target_include_directories(btcheck_door INTERFACE
 target_compile_features(btcheck_door INTERFACE cxx_std_20)
 target_link_libraries(btcheck_door INTERFACE btcheck_library Threads::Threads)
 
-# The same for C and for languages that call C, as one file to load.
-option(BTCHECK_SHARED "build and install libbtcheck_c.so, for btcheck/check.h" OFF)
-add_library(btcheck_shared SHARED EXCLUDE_FROM_ALL $<TARGET_OBJECTS:btcheck_api>)
-set_target_properties(btcheck_shared PROPERTIES OUTPUT_NAME btcheck_c
-  EXPORT_NAME c LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION} SOVERSION 1)
+# The same for C and for languages that call C, as one file to load. Whoever
+# loads it need not have what it is made of.
+add_library(btcheck_shared SHARED $<TARGET_OBJECTS:btcheck_api>)
+set_target_properties(btcheck_shared PROPERTIES OUTPUT_NAME btcheck
+  LINKER_LANGUAGE CXX VERSION 1 SOVERSION 1 LINK_DEPENDS
+  ${PROJECT_SOURCE_DIR}/cmake/libbtcheck.map)
 target_link_libraries(btcheck_shared PRIVATE btcheck_api)
 target_link_options(btcheck_shared PRIVATE
-  -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/check_h.map)
-if(BTCHECK_SHARED)
-  set_target_properties(btcheck_shared PROPERTIES EXCLUDE_FROM_ALL OFF)
-  install(TARGETS btcheck_shared LIBRARY COMPONENT library
-    DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/libbtcheck.map)
+if(BTCHECK_STATIC)
+  target_sources(btcheck_shared PRIVATE cmake/find_object.cpp)
+  # Without what nothing calls: a part of libstdc++ wants glibc 2.36.
+  target_link_options(btcheck_shared PRIVATE
+    -static-libstdc++ -static-libgcc -Wl,--gc-sections -s)
+elseif(BTCHECK_SANITIZE)
+  set_target_properties(btcheck_shared PROPERTIES EXCLUDE_FROM_ALL ON)
 endif()
+install(TARGETS btcheck_shared LIBRARY OPTIONAL COMPONENT library
+  DESTINATION ${CMAKE_INSTALL_LIBDIR})
 
 # The engine that runs trees, with the one header that its users need.
 add_library(btcheck_engine STATIC $<TARGET_OBJECTS:btcheck_run>)
@@ -55,22 +62,26 @@ target_compile_features(btcheck_engine INTERFACE cxx_std_20)
 target_link_libraries(btcheck_engine INTERFACE
   btcheck_library Threads::Threads)
 
-# The program writes its own man page and completions. Where only a part was
+# The program writes its own man page and completions; for another machine, one
+# that runs here does. Where only a part was
 # built, that part is installed: OPTIONAL below leaves the rest out.
+set(BTCHECK_WRITER btcheck CACHE STRING "what writes the man page")
 set(pages ${PROJECT_BINARY_DIR}/pages)
 set(changelog ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
 configure_file(cmake/changelog.Debian.in ${pages}/changelog.Debian @ONLY)
 add_custom_command(
   OUTPUT ${pages}/btcheck.1.gz ${pages}/btcheck ${pages}/_btcheck
-    ${pages}/btcheck.fish ${pages}/changelog.gz ${pages}/changelog.Debian.gz
+    ${pages}/btcheck.fish ${pages}/licenses.txt ${pages}/changelog.gz
+    ${pages}/changelog.Debian.gz
   COMMAND ${CMAKE_COMMAND} -E make_directory ${pages}
-  COMMAND btcheck man | gzip -9n > ${pages}/btcheck.1.gz
-  COMMAND btcheck completions bash > ${pages}/btcheck
-  COMMAND btcheck completions zsh > ${pages}/_btcheck
-  COMMAND btcheck completions fish > ${pages}/btcheck.fish
+  COMMAND ${BTCHECK_WRITER} man | gzip -9n > ${pages}/btcheck.1.gz
+  COMMAND ${BTCHECK_WRITER} completions bash > ${pages}/btcheck
+  COMMAND ${BTCHECK_WRITER} completions zsh > ${pages}/_btcheck
+  COMMAND ${BTCHECK_WRITER} completions fish > ${pages}/btcheck.fish
+  COMMAND ${BTCHECK_WRITER} --licenses > ${pages}/licenses.txt
   COMMAND gzip -9nc ${changelog} > ${pages}/changelog.gz
   COMMAND gzip -9nc ${pages}/changelog.Debian > ${pages}/changelog.Debian.gz
-  DEPENDS btcheck ${changelog} VERBATIM)
+  DEPENDS ${BTCHECK_WRITER} ${changelog} VERBATIM)
 add_custom_target(btcheck_pages ALL DEPENDS ${pages}/btcheck.1.gz)
 
 # tell_missing(COMPONENT FILE TEXT): said at installation where there is no FILE.
@@ -84,20 +95,6 @@ endfunction()
 set(data ${CMAKE_INSTALL_DATADIR})
 set_target_properties(btcheck PROPERTIES EXPORT_NAME program)
 
-# Each release of Debian and Ubuntu has another version of fmt and of tinyxml2,
-# and under another name: a package that is to be installed on all of them
-# brings its own, in a folder that no other program looks in.
-option(BTCHECK_CARRY_LIBRARIES "install fmt and tinyxml2 with the program" OFF)
-if(BTCHECK_CARRY_LIBRARIES)
-  set(carried ${CMAKE_INSTALL_LIBDIR}/btcheck)
-  # The second, as a package has it: $ORIGIN needs /proc.
-  set_target_properties(btcheck PROPERTIES
-    INSTALL_RPATH "$ORIGIN/../${carried};/usr/${carried}")
-  foreach(library fmt::fmt tinyxml2::tinyxml2)
-    install(FILES $<TARGET_FILE:${library}> COMPONENT program
-      RENAME $<TARGET_SONAME_FILE_NAME:${library}> DESTINATION ${carried})
-  endforeach()
-endif()
 install(TARGETS btcheck EXPORT btcheck_program COMPONENT program)
 if(TARGET btcheck_pins)
   install(TARGETS btcheck_pins LIBRARY OPTIONAL COMPONENT program
@@ -118,6 +115,8 @@ install(DIRECTORY docs examples properties COMPONENT program
   PATTERN ".btcheck-results*" EXCLUDE
   PATTERN "__pycache__" EXCLUDE)
 install(FILES README.md COMPONENT program DESTINATION ${data}/doc/btcheck)
+install(FILES ${pages}/licenses.txt OPTIONAL COMPONENT program
+  DESTINATION ${data}/doc/btcheck)
 install(DIRECTORY schemas COMPONENT program DESTINATION ${data}/btcheck)
 
 # A package of Debian has its changelog and licence in a folder of its name.
@@ -168,6 +167,7 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program library)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
@@ -175,7 +175,6 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE
   OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME btcheck)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
   "model checker for behavior trees
 btcheck tries every combination of action results, sensor values and
@@ -183,6 +182,8 @@ interleavings of a behavior tree, and either proves a rule or shows the run
 that breaks it.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libbtcheck-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
 # The archive was compiled with the headers of these two: what is built with it
 # has to have the same ones.
 function(same_major variable package version)

@@ -28,13 +28,17 @@ for compiler in g++ clang++-14; do
   ! command -v $compiler >/dev/null ||
     $compiler -std=c++11 $strict -fsyntax-only "$folder/door.cpp" || fail "$compiler"
 done
-# The header's names and no others.
-names=$(nm -D --defined-only "$library" | awk '{print $3}' | sed 's/@.*//' | sort)
+# The header's names, with the version of the library, and no others.
+told=$(nm -D --with-symbol-versions --defined-only "$library")
+names=$(sed -nE 's/.* T (btcheck_[a-z_]+)@@BTCHECK_1$/\1/p' <<<"$told" | sort)
 wanted=$(grep -oE '\bbtcheck_[a-z_]+\(' "$sources/src/btcheck/check.h" | tr -d '(' | sort -u)
 for name in $wanted; do
   grep -qx "$name" <<<"$names" || fail "$name is not exported"
 done
-! grep -vE '^(btcheck_|$)' <<<"$names" || fail "other names are exported"
+! grep -vE ' T btcheck_[a-z_]+@@BTCHECK_1$| A BTCHECK_1(@@BTCHECK_1)?$' <<<"$told" ||
+  fail "other names are exported"
+readelf -dW "$library" | grep -q 'SONAME.*\[libbtcheck\.so\.1\]' ||
+  fail "another soname than libbtcheck.so.1"
 ! command -v python3 >/dev/null ||
   python3 -B "$sources/tests/api/c_door_test.py" "$library" \
     "$sources/examples/nav2/jazzy/navigate_to_pose_w_replanning_and_recovery.xml" ||
