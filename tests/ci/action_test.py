@@ -29,7 +29,8 @@ TREE = "(BehaviorTree :name t (Sequence (Action :ID a) (Action :ID b)))\n"
 RACE = ('<root BTCPP_format="4"><BehaviorTree ID="T"><Parallel name="{}" success_count="1">'
         '<A/><B/></Parallel></BehaviorTree></root>\n')
 HOSTILE = ["a b", "it's", 'say "so"', "a;touch pwned", "$(touch pwned)", "`touch pwned`",
-           "${HOME}", "*", "::error::pwned", "##[error]pwned", "%0A::error::pwned", "-q", "--help"]
+           "${HOME}", "*", "::error::pwned", "##[error]pwned", "%0A::error::pwned",
+           "%%{init: {'theme': 'pwned'}}%%", "-q", "--help"]
 runs = 0
 
 
@@ -309,6 +310,7 @@ def check_hostile():
                 expect(set(outputs) == {"program", "folder", "results", "outcome", "findings",
                                         "sarif", "report"}, f"{word}: outputs {set(outputs)}")
             page = job.summary.read_text()
+            expect("%%{" not in page, "a name directs Mermaid")
             expect(page.count("```mermaid\n") == 2 and page.count("\n```\n") == 2, page)
     with Job() as job:
         race = RACE.format("&#10;```&#10;::error::pwned")

@@ -95,7 +95,7 @@ std::string node_line(const RecordedRun& run, const RecordedState& state,
 }
 
 std::string mermaid_escaped(std::string_view text) {
-  constexpr std::string_view kMeaningful = "\"#&<>`\\";
+  constexpr std::string_view kMeaningful = "\"#%&<>`\\";
   std::string result;
   for (const char c : text) {
     const bool is_plain = kMeaningful.find(c) == std::string_view::npos;
