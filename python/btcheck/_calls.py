@@ -374,6 +374,13 @@ def _answered(name: str, request: _Request) -> _Handle:
     return handle
 
 
+# As the library has them, which takes longer to say than to skip.
+_DEFAULTS: Mapping[str, object] = {
+    "tick_milliseconds": 0, "loops": False, "wake_ups": False, "tries_repairs": True,
+    "threads": 1, "seconds": 0, "bytes": "0", "states": 0, "run_ticks": 100,
+}
+
+
 def _ask(
     call: str,
     tree: object,
@@ -402,7 +409,7 @@ def _ask(
         else:
             made.name("script", script)  # type: ignore
     for name, value in words.items():
-        if value is None:
+        if value is None or value == _DEFAULTS.get(name, ""):
             continue
         word = str(value).lower() if isinstance(value, bool) else str(value)
         made.request.set(name, word)

@@ -7,8 +7,11 @@
 namespace btcheck {
 namespace {
 
-// A state is kept wherever so many steps lie behind it.
+// A state is kept wherever so many steps lie behind it: of the first branches
+// more, since small trees are looked up most, for their size.
 constexpr std::uint32_t kApart = 64;
+constexpr std::uint32_t kNear = 4;
+constexpr std::size_t kFirst = 4096;
 
 }  // namespace
 
@@ -29,7 +32,8 @@ RunTree::Place RunTree::follow(Place from, const Step& step,
   branches_.push_back({from, branches_[from].depth + 1,
                        branches_[from].ticks + step.elapsed, step});
   following_.emplace(key, made);
-  if (branches_[made].depth % kApart == 0) kept_.emplace(made, state);
+  const std::uint32_t apart = branches_.size() < kFirst ? kNear : kApart;
+  if (branches_[made].depth % apart == 0) kept_.emplace(made, state);
   return made;
 }
 

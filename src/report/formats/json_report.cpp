@@ -21,6 +21,24 @@ std::string dumped(const OrderedJson& value, int indent = -1) {
          "\n";
 }
 
+// An object with these members, a name and a value by turns, and room for
+// more: one that grows copies all that it has.
+template <class... Members>
+OrderedJson object(std::size_t more, Members&&... members) {
+  OrderedJson json = OrderedJson::object();
+  auto& to = json.get_ref<OrderedJson::object_t&>();
+  to.reserve(sizeof...(members) / 2 + more);
+  const auto add = [&to](auto&& self, auto&& name, auto&& value,
+                         auto&&... rest) -> void {
+    to.emplace_back(name, OrderedJson(std::forward<decltype(value)>(value)));
+    if constexpr (sizeof...(rest) > 0) {
+      self(self, std::forward<decltype(rest)>(rest)...);
+    }
+  };
+  add(add, std::forward<Members>(members)...);
+  return json;
+}
+
 // null where there is nothing.
 OrderedJson given(bool is_there, const OrderedJson& value) {
   return is_there ? value : OrderedJson(nullptr);
@@ -40,8 +58,8 @@ OrderedJson events_json(const ToldRun& run) {
   for (const ToldStep& step : run.steps) {
     if (step.kind == ToldStep::Kind::Time) continue;
     const bool is_event = step.kind == ToldStep::Kind::Event;
-    OrderedJson event = {{"time", step.time},
-                         {is_event ? "event" : "remark", step.text}};
+    OrderedJson event =
+        object(3, "time", step.time, is_event ? "event" : "remark", step.text);
     if (is_event) {
       event["chosen"] = step.is_chosen;
       event["line"] = step.place.span.line;
@@ -54,10 +72,8 @@ OrderedJson events_json(const ToldRun& run) {
 
 OrderedJson run_json(const std::optional<ToldRun>& run) {
   if (!run) return nullptr;
-  return {{"unit", run->unit},
-          {"time", run->time},
-          {"infinite", run->loop.has_value()},
-          {"events", events_json(*run)}};
+  return object(0, "unit", run->unit, "time", run->time, "infinite",
+                run->loop.has_value(), "events", events_json(*run));
 }
 
 // Each change replaces whole lines: from column 1 of one to column 1 of
@@ -77,9 +93,9 @@ OrderedJson repair_json(const std::optional<CheckedRepair>& repair) {
 }
 
 OrderedJson diagnostic_json(const Diagnostic& diagnostic) {
-  OrderedJson json = {{"severity", severity_name(diagnostic.severity)},
-                      {"code", diagnostic.code},
-                      {"message", diagnostic.message}};
+  OrderedJson json =
+      object(7, "severity", severity_name(diagnostic.severity), "code",
+             diagnostic.code, "message", diagnostic.message);
   add_place(json, {diagnostic.file, diagnostic.span});
   json["label"] = word(diagnostic.label);
   json["help"] = word(diagnostic.help);
@@ -88,10 +104,9 @@ OrderedJson diagnostic_json(const Diagnostic& diagnostic) {
 }
 
 OrderedJson finding_json(const Report& report, const Finding& finding) {
-  OrderedJson json = {{"severity", severity_name(finding.severity)},
-                      {"code", finding.code},
-                      {"title", finding.title},
-                      {"message", finding.message}};
+  OrderedJson json =
+      object(9, "severity", severity_name(finding.severity), "code",
+             finding.code, "title", finding.title, "message", finding.message);
   add_place(json, finding.place);
   json["node"] = word(finding.node);
   json["fingerprint"] = fingerprint_of(report, finding);
@@ -122,10 +137,9 @@ void add_progress(OrderedJson& to, const SearchProgress& progress) {
 }
 
 OrderedJson verdict_json(const ReportedProperty& property) {
-  OrderedJson json = {{"name", property.name},
-                      {"title", word(property.title)},
-                      {"property", property.text},
-                      {"tags", property.tags}};
+  OrderedJson json =
+      object(17, "name", property.name, "title", word(property.title),
+             "property", property.text, "tags", property.tags);
   add_place(json, property.place);
   const bool has_failed = !property.error.empty();
   const bool is_open = has_failed || property.verdict == Verdict::Undecided;
@@ -147,22 +161,19 @@ OrderedJson verdict_json(const ReportedProperty& property) {
 }
 
 OrderedJson answer_json(const ReportedAnswer& answer) {
-  return {{"key", answer.key},
-          {"question", answer.question},
-          {"verdict", verdict_word(answer.verdict)},
-          {"answer", answer.answer},
-          {"fault", answer.is_fault},
-          {"run", run_json(answer.run)}};
+  return object(0, "key", answer.key, "question", answer.question, "verdict",
+                verdict_word(answer.verdict), "answer", answer.answer, "fault",
+                answer.is_fault, "run", run_json(answer.run));
 }
 
 OrderedJson node_json(const ReportedNode& node) {
-  OrderedJson json = {
-      {"key", node.key}, {"name", node.name}, {"type", node.type}};
+  OrderedJson json = object(4 + kNodeQuestionCount, "key", node.key, "name",
+                            node.name, "type", node.type);
   add_place(json, node.place);
   for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
     if (!node.answers[q]) continue;
     OrderedJson& answer = json[std::string(kNodeQuestionNames[q])];
-    answer = {{"verdict", verdict_word(node.answers[q]->verdict)}};
+    answer = object(1, "verdict", verdict_word(node.answers[q]->verdict));
     if (node.answers[q]->verdict == Verdict::Holds) {
       answer["time"] = node.answers[q]->time;
     }
@@ -173,6 +184,7 @@ OrderedJson node_json(const ReportedNode& node) {
 template <class Parts, class ToJson>
 OrderedJson array_of(const Parts& parts, const ToJson& to_json) {
   OrderedJson array = OrderedJson::array();
+  array.get_ref<OrderedJson::array_t&>().reserve(parts.size());
   for (const auto& part : parts) array.push_back(to_json(part));
   return array;
 }
