@@ -12,8 +12,11 @@ import btcheck
 
 SOURCES = Path(os.environ["BTCHECK_SOURCES"])
 NAV2 = SOURCES / "examples/nav2/main/navigate_to_pose_w_replanning_and_recovery.xml"
-# 10 nodes.
+# 10 nodes, and nothing to warn of. In the other one the gripper is left open, and
+# a change that mends it is looked for by checking again.
 TREE = """<root BTCPP_format="4"><BehaviorTree ID="M"><Sequence>
+  <a/><b/><Fallback><c/><d/><e/></Fallback><f/><g/></Sequence></BehaviorTree></root>"""
+WARNED = """<root BTCPP_format="4"><BehaviorTree ID="M"><Sequence>
   <CheckBattery/><OpenGripper/>
   <Fallback><GraspDirectly/><GraspFromAbove/></Fallback>
   <CloseGripper/><Lift/><Place/></Sequence></BehaviorTree></root>"""
@@ -26,7 +29,7 @@ def rate(what, call):
     while time.monotonic() - began < 3:
         call()
         calls += 1
-    print("%-34s %6.0f per second of processor time, %6.0f per second"
+    print("%-36s %6.0f per second of processor time, %6.0f per second"
           % (what, calls / (time.process_time() - cpu),
              calls / (time.monotonic() - began)))
 
@@ -43,8 +46,9 @@ def check():
 
 rate("check of 10 nodes, ok alone", lambda: btcheck.check(TREE).ok)
 rate("check of 10 nodes, with findings", check)
-rate("check of 10 nodes, a rule",
-     lambda: btcheck.check(TREE, "never Lift.failure and OpenGripper.failure").ok)
+rate("check of 10 nodes, a rule that holds",
+     lambda: btcheck.check(TREE, "never g.halted").ok)
+rate("check of 10 nodes, a warning", lambda: btcheck.check(WARNED).findings)
 text = NAV2.read_text()
 rate("lint of Nav2's default tree", lambda: btcheck.lint(text).findings)
 rate("lint of it by its path", lambda: btcheck.lint(NAV2).findings)
