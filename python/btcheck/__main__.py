@@ -8,7 +8,8 @@ from pathlib import Path
 
 def main() -> None:
     """Becomes the program: signals, output and exit code are its own."""
-    program = os.environ.get("BTCHECK_PROGRAM") or str(
+    # Taken once: it may well name this very script.
+    program = os.environ.pop("BTCHECK_PROGRAM", "") or str(
         Path(__file__).with_name("program")
     )
     try:

@@ -25,8 +25,6 @@ from ._report import (
 
 Path = Union[str, "os.PathLike[str]"]
 Text = Union[str, bytes]
-# One, or several.
-Files = Union[Path, Iterable[Path]]
 
 
 class RequestError(ValueError):

@@ -36,6 +36,16 @@ def pytest_collect_file(file_path: Path, parent: Any) -> Optional[pytest.File]:
     return TreeFile.from_parent(parent, path=file_path)  # type: ignore
 
 
+if int(pytest.__version__.split(".")[0]) < 7:
+    # It knows no `file_path`, and would refuse to begin.
+    del pytest_collect_file
+
+
+def pytest_configure(config: Any) -> None:
+    if config.getoption("--btcheck") and "pytest_collect_file" not in globals():
+        raise pytest.UsageError("--btcheck needs pytest 7 or later")
+
+
 def _is_tree(path: Path) -> bool:
     """Not each XML file is one."""
     if path.suffix == ".btf":

@@ -252,6 +252,12 @@ def test_the_program_is_carried():
     done = subprocess.run([sys.executable, "-m", "btcheck", "--version"],
                           capture_output=True, text=True, timeout=60)
     assert done.returncode == 0 and btcheck.__version__ in done.stdout
+    # A variable that names the script itself does not go round and round.
+    again = subprocess.run([os.environ["TESTED_PROGRAM"], "--version"],
+                           capture_output=True, text=True, timeout=60,
+                           env={**os.environ,
+                                "BTCHECK_PROGRAM": os.environ["TESTED_PROGRAM"]})
+    assert btcheck.__version__ in again.stdout
     gone = subprocess.run([sys.executable, "-m", "btcheck"], capture_output=True,
                           text=True, timeout=60,
                           env={**os.environ, "BTCHECK_PROGRAM": "/gone"})

@@ -5,6 +5,8 @@ import gc
 import multiprocessing
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 
@@ -99,6 +101,17 @@ def test_cancelled_from_elsewhere_twice_and_before():
     assert report.stopped == "interrupted"
     assert btcheck.check(SMALL, cancel=ends).outcome is Outcome.UNDECIDED
     assert btcheck.check(SMALL).ok
+
+
+def test_a_program_that_ends_meanwhile():
+    code = (
+        "import threading, time, btcheck\n"
+        "threading.Thread(target=btcheck.check, args=(%r,), daemon=True).start()\n"
+        "time.sleep(0.2)" % ENDLESS)
+    for _ in range(3):
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True,
+                              text=True, timeout=60)
+        assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_a_limit_leaves_it_undecided():
