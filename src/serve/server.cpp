@@ -144,9 +144,22 @@ void Server::cancel(const JsonValue& params) {
   if (id == nullptr) return;
   const std::string text =
       id->is(JsonValue::Kind::Text) ? Json(id->text).text() : id->text;
-  const std::scoped_lock lock(mutex_);
-  const auto found = at_work_.find(text);
-  if (found != at_work_.end()) found->second->cancel();
+  Job job;
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto found = at_work_.find(text);
+    if (found == at_work_.end()) return;
+    found->second->cancel();
+    const auto waits = std::ranges::find(
+        waiting_, text, [](const Job& each) { return each.message.id; });
+    if (waits == waiting_.end()) return;
+    job = std::move(*waits);
+    waiting_.erase(waits);
+    at_work_.erase(found);
+  }
+  // It need not wait for its turn.
+  const std::string answer = answer_to(job);
+  if (!answer.empty()) wire_.send(answer);
 }
 
 std::string Server::answer_to(const Job& job) const {

@@ -188,8 +188,9 @@ class Serve(unittest.TestCase):
         busy = [session.begin("check", tree=tree) for _ in range(3)]
         for number in reversed(busy):
             session.notify("$/cancelRequest", id=number)
-        for number in busy:
-            self.assertEqual(session.answer(number)["error"]["code"], -32800)
+            answer = session.read()
+            self.assertEqual(answer["id"], number)
+            self.assertEqual(answer["error"]["code"], -32800)
 
     def test_limits_of_a_request_and_of_the_process(self):
         tree = large_tree(self.folder)
