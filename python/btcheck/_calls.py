@@ -9,7 +9,18 @@ import os
 import re
 import threading
 import xml.etree.ElementTree as ElementTree
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Set, Union
+from typing import (
+    Any,
+    Callable,
+    Dict,
+    Iterable,
+    List,
+    Mapping,
+    Optional,
+    Set,
+    Tuple,
+    Union,
+)
 
 from ._disk import Disk, Named, ReadError
 from ._library import Source, library
@@ -308,6 +319,7 @@ def _is_rule_file(name: str) -> bool:
 # --- Calls ------------------------------------------------------------------------
 
 _MOST_WAIT = 2.0  # seconds, for a call that was cancelled
+_MOST_IDLE = 0.1
 
 
 def _call(function: Callable[[int], int], request: _Request) -> _Handle:
@@ -317,33 +329,102 @@ def _call(function: Callable[[int], int], request: _Request) -> _Handle:
     return _Handle(pointer)
 
 
+def _open(lock: Any) -> None:
+    """Also one that an interrupt has left open."""
+    try:
+        lock.release()
+    except RuntimeError:
+        pass
+
+
+class _Worker:
+    """A thread that calls for the main thread. It ends when nobody has needed it
+    for a moment; to begin one for each call takes a tenth of a small check."""
+
+    def __init__(self) -> None:
+        self._begin, self._end = _thread.allocate_lock(), _thread.allocate_lock()
+        self._begin.acquire()
+        self._end.acquire()
+        self._job: Optional[Tuple[Callable[[int], int], _Request]] = None
+        self._answers: List[Union[_Handle, BaseException]] = []
+        self._is_dismissed = False
+        _thread.start_new_thread(self._run, ())
+
+    def call(
+        self, function: Callable[[int], int], request: _Request
+    ) -> Union[_Handle, BaseException]:
+        self._job = (function, request)
+        self._begin.release()
+        self._end.acquire()
+        return self._answers.pop()
+
+    def wait(self, seconds: float) -> None:
+        """Until the call has ended, or so long."""
+        if not self._answers:
+            self._end.acquire(timeout=seconds)
+
+    def dismiss(self) -> None:
+        self._is_dismissed = True
+        _open(self._begin)
+
+    def _run(self) -> None:
+        while not self._is_dismissed or self._job:
+            if self._begin.acquire(timeout=_MOST_IDLE):
+                self._work()
+            elif self in _idle:
+                try:
+                    _idle.remove(self)
+                    break
+                except ValueError:  # it has just been taken
+                    pass
+        _open(self._end)
+
+    def _work(self) -> None:
+        job, self._job = self._job, None
+        if job is None:
+            return
+        try:
+            self._answers.append(_call(*job))
+        except BaseException as error:
+            self._answers.append(error)
+        del job
+        self._end.release()
+
+
+_idle: List[_Worker] = []
+
+
+def _dismiss_all() -> None:
+    """A fork has one thread, and some Pythons warn where it had more."""
+    while _idle:
+        worker = _idle.pop()
+        worker.dismiss()
+        worker.wait(_MOST_IDLE)
+
+
+os.register_at_fork(before=_dismiss_all, after_in_child=_idle.clear)
+
+
 def _call_beside(function: Callable[[int], int], request: _Request) -> _Handle:
     """In a thread of its own: signals come to the main thread, and meanwhile
     that can act on them. Handlers are the host's."""
-    answers: List[Union[_Handle, BaseException]] = []
-    done = _thread.allocate_lock()
-    done.acquire()
-
-    def work() -> None:
-        try:
-            answers.append(_call(function, request))
-        except BaseException as error:
-            answers.append(error)
-        done.release()
-
     try:
-        try:
-            _thread.start_new_thread(work, ())
-        except RuntimeError:  # there are no more threads
-            return _call(function, request)
-        done.acquire()
+        worker = _idle.pop() if _idle else _Worker()
+    except RuntimeError:  # there are no more threads
+        return _call(function, request)
+    try:
+        answer = worker.call(function, request)
     except BaseException:
         request.cancel()
-        done.acquire(timeout=_MOST_WAIT)
+        try:
+            worker.wait(_MOST_WAIT)
+        finally:
+            worker.dismiss()
         raise
-    if isinstance(answers[0], BaseException):
-        raise answers[0]
-    return answers[0]
+    _idle.append(worker)
+    if isinstance(answer, BaseException):
+        raise answer
+    return answer
 
 
 def _answered(name: str, request: _Request) -> _Handle:

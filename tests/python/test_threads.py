@@ -85,6 +85,26 @@ def test_handlers_of_the_host_stay_and_are_called():
         signal.signal(signal.SIGALRM, old)
 
 
+def test_a_handler_may_check_itself():
+    inner = []
+    old = signal.signal(signal.SIGALRM, lambda *_: inner.append(btcheck.check(SMALL).ok))
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        assert btcheck.check(ENDLESS, timeout=0.4).stopped == "timeout"
+    finally:
+        signal.signal(signal.SIGALRM, old)
+    assert inner == [True]
+
+
+def test_no_thread_stays():
+    assert btcheck.check(SMALL).ok
+    deadline = time.monotonic() + 5
+    while len(os.listdir("/proc/self/task")) > 1 and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert len(os.listdir("/proc/self/task")) == 1
+    assert btcheck.check(SMALL).ok
+
+
 def test_cancelled_from_elsewhere_twice_and_before():
     ends = btcheck.Cancellation()
     began = []
