@@ -362,6 +362,12 @@ TEST_CASE("a dumb terminal gets no escape sequences") {
                          BTCHECK_EXAMPLES "/nav2.btf --timeout 1' /dev/null");
   if (outcome.code == 127) return;  // no `script` here
   CHECK(!has(outcome.text, "\x1b"));
+  // Nor a message that is painted elsewhere.
+  const Outcome refused =
+      run_in(folder.path(), "TERM=dumb script -qec '" + kProgram +
+                                " space none.btf' /dev/null");
+  CHECK(has(refused.text, "BT0002"));
+  CHECK(!has(refused.text, "\x1b"));
 }
 
 // --- Files that are none -------------------------------------------------

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <mutex>
 #include <ostream>
 #include <sstream>
@@ -135,6 +136,11 @@ void flush_output() {
 
 std::unique_ptr<std::ostream> printing_stream() {
   return std::make_unique<PrintingStream>();
+}
+
+bool is_dumb_terminal() {
+  const char* terminal = std::getenv("TERM");
+  return terminal == nullptr || terminal == std::string_view("dumb");
 }
 
 }  // namespace btcheck

@@ -48,4 +48,7 @@ void flush_output();
 // A stream that prints when it is flushed, and at its end.
 std::unique_ptr<std::ostream> printing_stream();
 
+// Whether the terminal knows no escape sequences: without a TERM, or `dumb`.
+bool is_dumb_terminal();
+
 }  // namespace btcheck

@@ -240,7 +240,7 @@ bool wants_color(const Options& options, int descriptor) {
   if (options.color != When::Auto) return options.color == When::Always;
   const char* no_color = std::getenv("NO_COLOR");
   return (no_color == nullptr || *no_color == '\0') &&
-         ::isatty(descriptor) != 0;
+         ::isatty(descriptor) != 0 && !is_dumb_terminal();
 }
 
 // Warnings and notes that say the same become one, which names the other lines.

@@ -132,10 +132,9 @@ unsigned threads_to_use(const Options& options) {
 
 ProgressStyle progress_style(const Options& options) {
   if (options.is_quiet) return ProgressStyle::Silent;
-  const char* terminal = std::getenv("TERM");
-  const bool is_dumb = terminal == nullptr || terminal == std::string("dumb");
-  return ::isatty(STDERR_FILENO) != 0 && !is_dumb ? ProgressStyle::Rewritten
-                                                  : ProgressStyle::Lines;
+  return ::isatty(STDERR_FILENO) != 0 && !is_dumb_terminal()
+             ? ProgressStyle::Rewritten
+             : ProgressStyle::Lines;
 }
 
 void allow(const Options& options) {
