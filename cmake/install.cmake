@@ -183,7 +183,9 @@ that breaks it.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libbtcheck-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA
+  ${PROJECT_SOURCE_DIR}/cmake/triggers)
 # The archive was compiled with the headers of these two: what is built with it
 # has to have the same ones.
 function(same_major variable package version)
