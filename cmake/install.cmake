@@ -82,7 +82,7 @@ add_custom_command(
   COMMAND gzip -9nc ${changelog} > ${pages}/changelog.gz
   COMMAND gzip -9nc ${pages}/changelog.Debian > ${pages}/changelog.Debian.gz
   DEPENDS ${BTCHECK_WRITER} ${changelog} VERBATIM)
-add_custom_target(btcheck_pages ALL DEPENDS ${pages}/btcheck.1.gz)
+add_custom_target(btcheck_pages ALL DEPENDS ${pages}/btcheck.1.gz btcheck)
 
 # tell_missing(COMPONENT FILE TEXT): said at installation where there is no FILE.
 function(tell_missing component file text)
