@@ -87,4 +87,4 @@ class Wheel(bdist_wheel):
 
 
 setup(version=version(), cmdclass={"build_py": Build, "bdist_wheel": Wheel},
-      distclass=Binary, license_files=["LICENSE", "copyright"])
+      distclass=Binary, license_files=["LICENSE", "copyright", "licenses/*.txt"])

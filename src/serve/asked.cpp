@@ -2,6 +2,7 @@
 #include "serve/asked.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -13,6 +14,7 @@
 
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
+#include "cli/inputs/process_limits.hpp"
 #include "project/content.hpp"
 
 namespace btcheck {
@@ -218,6 +220,15 @@ class Recent {
     return order_.front().report;
   }
 
+  // Where the process holds too much, no report may be to blame.
+  void forget() {
+    const std::scoped_lock lock(mutex_);
+    by_content_.clear();
+    order_.clear();
+    bytes_ = 0;
+    ::malloc_trim(0);
+  }
+
   void keep(const std::string& content, const v1::Report& report) {
     const std::scoped_lock lock(mutex_);
     if (content.size() > kMostBytes / 8 || by_content_.contains(content)) {
@@ -251,7 +262,9 @@ class Recent {
 class Known final : public v1::KnownReports {
  public:
   Known(std::string_view call, const ServedSources& sources)
-      : call_(call), sources_(sources) {}
+      : call_(call), sources_(sources) {
+    if (limits_of_command().overdrawn() == Spent::Memory) recent().forget();
+  }
 
   std::optional<v1::Report> find(const v1::Request& request,
                                  const v1::Inputs& inputs) override {
