@@ -303,15 +303,21 @@ ToolAnswer answer_of(const AskedTree& asked, const v1::Report& report) {
   return answer;
 }
 
-AskedTree asked_of(const JsonValue& arguments,
-                   const std::vector<std::string>& others = {}) {
-  return asked_by(arguments, others);
-}
+// The finding that the arguments name, of the tree as it is now.
+struct NamedFinding {
+  AskedTree asked;
+  v1::Report report;
+  std::size_t number = 0;
 
-// The finding that the arguments name, in a report of the tree as it is now.
-const v1::Finding& finding_in(const v1::Report& report,
-                              const std::string& name) {
-  const auto names = names_of(report);
+  const v1::Finding& finding() const { return report.findings[number]; }
+};
+
+NamedFinding finding_named_by(const JsonValue& arguments, Work& work,
+                              const std::vector<std::string>& others) {
+  NamedFinding found{asked_by(arguments, others), {}, 0};
+  const std::string name = needed_text(arguments, "finding");
+  found.report = checked_once(found.asked, work);
+  const auto names = names_of(found.report);
   const auto at = std::ranges::find(names, name);
   if (at == names.end()) {
     throw RpcError(rpc::kInvalidParams,
@@ -319,14 +325,15 @@ const v1::Finding& finding_in(const v1::Report& report,
                                "lists those that it has",
                                name.substr(0, 80)));
   }
-  return report.findings[static_cast<std::size_t>(at - names.begin())];
+  found.number = static_cast<std::size_t>(at - names.begin());
+  return found;
 }
 
 // --- The tools
 // -------------------------------------------------------------------
 
 ToolAnswer check_tree(const JsonValue& arguments, Work& work) {
-  const AskedTree asked = asked_of(arguments);
+  const AskedTree asked = asked_by(arguments, {});
   return answer_of(asked, checked_once(asked, work));
 }
 
@@ -334,10 +341,9 @@ ToolAnswer explain_finding(const JsonValue& arguments, Work& work) {
   ToolAnswer answer;
   std::string code = arguments.word("code");
   if (arguments.member("tree") != nullptr) {
-    const AskedTree asked = asked_of(arguments, {"code", "finding"});
-    const v1::Report report = checked_once(asked, work);
-    const v1::Finding& finding =
-        finding_in(report, needed_text(arguments, "finding"));
+    const NamedFinding named =
+        finding_named_by(arguments, work, {"code", "finding"});
+    const v1::Finding& finding = named.finding();
     code = finding.code;
     answer.text = fmt::format("{}\n", finding.message);
     if (finding.run) {
@@ -363,10 +369,8 @@ ToolAnswer explain_finding(const JsonValue& arguments, Work& work) {
 }
 
 ToolAnswer propose_repair(const JsonValue& arguments, Work& work) {
-  const AskedTree asked = asked_of(arguments, {"finding"});
-  const v1::Report report = checked_once(asked, work);
-  const v1::Finding& finding =
-      finding_in(report, needed_text(arguments, "finding"));
+  const NamedFinding named = finding_named_by(arguments, work, {"finding"});
+  const v1::Finding& finding = named.finding();
   ToolAnswer answer;
   answer.data.add("has_repair", !finding.repair.empty());
   if (finding.repair.empty()) {
@@ -379,22 +383,20 @@ ToolAnswer propose_repair(const JsonValue& arguments, Work& work) {
       "{}\nWith these lines the finding is gone, and no other warning is "
       "there:\n",
       finding.help);
-  add_diff(asked, finding, answer.text);
+  add_diff(named.asked, finding, answer.text);
   return answer;
 }
 
 ToolAnswer apply_repair(const JsonValue& arguments, Work& work) {
-  const AskedTree asked = asked_of(arguments, {"finding"});
-  const v1::Report report = checked_once(asked, work);
-  const v1::Finding& finding =
-      finding_in(report, needed_text(arguments, "finding"));
+  const NamedFinding named = finding_named_by(arguments, work, {"finding"});
+  const v1::Finding& finding = named.finding();
   if (finding.repair.empty()) {
     throw RpcError(rpc::kInvalidParams,
                    "no change of lines is known that mends it");
   }
   ToolAnswer answer;
   Json files = Json::array();
-  for (const auto& [file, text] : edited_files(asked, finding)) {
+  for (const auto& [file, text] : edited_files(named.asked, finding)) {
     answer.text +=
         fmt::format("{}{}:\n{}", answer.text.empty() ? "" : "\n", file, text);
     files.push(Json{{"file", file}, {"text", text}});
@@ -404,7 +406,7 @@ ToolAnswer apply_repair(const JsonValue& arguments, Work& work) {
 }
 
 ToolAnswer simulate_tree(const JsonValue& arguments, Work& work) {
-  const AskedTree asked = asked_of(arguments);
+  const AskedTree asked = asked_by(arguments, {});
   const v1::Simulation run = v1::simulated(
       asked.fields.request, asked.fields.plan, *asked.sources, &work);
   ToolAnswer answer;
