@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/process_limits.hpp"
 #include "cli/inputs/watch.hpp"
@@ -34,6 +35,9 @@ Options confined(const Options& options, bool is_strict) {
 
 ExitCode serve(const Options& options, const Protocol& protocol,
                Framing framing, bool is_strict) {
+  if (::isatty(STDIN_FILENO) != 0 && !options.is_quiet) {
+    tell("waiting for messages of a program; Ctrl-D ends it\n");
+  }
   // Signals end the process: it has nothing to tell that nobody asks for.
   InterruptWatch::stand_down();
   Guard::dismiss();

@@ -427,17 +427,34 @@ TEST_CASE("--licenses has the text of each licence") {
   CHECK(answer.code == ExitCode::Met);
   std::size_t place = 0;
   for (const char* part :
-       {"== btcheck: MIT", "the btcheck authors", "== fmt: MIT",
-        "Victor Zverovich", "== tinyxml2: Zlib", "freely, subject to",
-        "== oneTBB: Apache-2.0", "END OF TERMS AND CONDITIONS",
-        "== zstd: BSD-3-Clause", "Facebook", "== lz4: BSD-2-Clause",
-        "Yann Collet", "== SQLite: blessing", "May you do good",
-        "== Boost: BSL-1.0", "Boost Software License", "== nlohmann-json: MIT",
-        "Niels Lohmann", "== CLI11: BSD-3-Clause", "University of Cincinnati",
-        "== toml++: MIT", "Mark Gillard", "== xxHash: BSD-2-Clause",
-        "== glibc: LGPL-2.1-or-later", "GNU LESSER GENERAL PUBLIC LICENSE",
+       {"== btcheck: MIT",
+        "the btcheck authors",
+        "== fmt: MIT",
+        "Victor Zverovich",
+        "== tinyxml2: Zlib",
+        "freely, subject to",
+        "== oneTBB: Apache-2.0",
+        "END OF TERMS AND CONDITIONS",
+        "== zstd: BSD-3-Clause",
+        "Facebook",
+        "== lz4: BSD-2-Clause",
+        "Yann Collet",
+        "== SQLite: blessing",
+        "May you do good",
+        "== Boost: BSL-1.0",
+        "Boost Software License",
+        "== nlohmann-json: MIT",
+        "Niels Lohmann",
+        "== CLI11: BSD-3-Clause",
+        "University of Cincinnati",
+        "== toml++: MIT",
+        "Mark Gillard",
+        "== xxHash: BSD-2-Clause",
+        "== glibc: LGPL-2.1-or-later",
+        "GNU LESSER GENERAL PUBLIC LICENSE",
         "== libstdc++: GPL-3.0-or-later WITH GCC-exception-3.1",
-        "GCC RUNTIME LIBRARY EXCEPTION", "GNU GENERAL PUBLIC LICENSE"}) {
+        "GCC RUNTIME LIBRARY EXCEPTION",
+        "GNU GENERAL PUBLIC LICENSE"}) {
     CAPTURE(part);
     place = answer.text.find(part, place);
     REQUIRE(place != std::string::npos);
