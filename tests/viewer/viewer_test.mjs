@@ -191,6 +191,20 @@ test("playing goes on by itself, round the loop", async () => {
   assert.equal(await step(), stopped);
 });
 
+// As a notebook shows it, which has no address for it.
+test("within another page it says what it shows", async () => {
+  const escaped = readFileSync(file("lasso.html"), "utf8")
+    .replaceAll("&", "&amp;").replaceAll('"', "&quot;");
+  writeFileSync(file("notebook.html"),
+    `<!doctype html><iframe width=1200 height=700 srcdoc="${escaped}">`);
+  await open("notebook");
+  const spoken = () => page.evaluate(`document.querySelector("iframe")
+    .contentDocument.getElementById("spoken").textContent`);
+  for (let i = 0; i < 100 && !await spoken(); ++i) await rest(50);
+  assert.match(await spoken(), /^Step /);
+  assert.deepEqual(page.complaints, []);
+});
+
 test("a link goes to its step, and the address follows", async () => {
   await open("lasso", { hash: "#step=12" });
   assert.equal(await step(), 12);

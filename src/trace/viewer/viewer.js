@@ -150,7 +150,11 @@ class Viewer {
     if (this.timer) return;
     this.announcing = setTimeout(() => {
       const hash = this.hash;
-      if (location.hash !== hash) history.replaceState(null, "", hash);
+      // A page within another one, in a notebook, has no address of its own.
+      const hasAddress = location.protocol !== "about:";
+      if (hasAddress && location.hash !== hash) {
+        history.replaceState(null, "", hash);
+      }
       const { isChosen } = this.run.stepTo(this.step, this.round);
       const { tick } = this.run.states[this.step];
       const remark = this.run.remark(this.step);
