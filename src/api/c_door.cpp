@@ -333,12 +333,7 @@ btcheck_report* btcheck_explain(const char* code) {
   return v1::answered([&](btcheck_report& report) {
     const auto explained = v1::explain(code);
     report.outcome = v1::Outcome::Met;
-    report.made[{Form::Json, {}}] = btcheck::Json{
-        {"schema", "btcheck-explanation/1"},
-        {"code", explained->code},
-        {"summary", explained->summary},
-        {"description", explained->description},
-        {"help", explained->help}}.text();
+    report.made[{Form::Json, {}}] = explained->json();
   });
 }
 

@@ -35,7 +35,6 @@ class Call final : public Budget, public SearchMonitor {
     return stopped_at_ < 0 && (seconds_ == 0 || seconds() < seconds_ / 2);
   }
 
-  bool was_stopped() const { return stopped_at_ >= 0; }
   double seconds() const {
     return std::chrono::duration<double>(Clock::now() - begin_).count();
   }
@@ -121,7 +120,7 @@ class KnownReports {
   virtual ~KnownReports() = default;
   virtual std::optional<Report> find(const Request& request,
                                      const Inputs& inputs) = 0;
-  // Of a call that was not ended by a limit.
+  // Of a call that no limit of time has ended or shortened.
   virtual void keep(const Request& request, const Inputs& inputs,
                     const Report& report) = 0;
 };

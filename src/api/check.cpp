@@ -101,7 +101,8 @@ Report called(const Request& request, CallSources& sources, Monitor* monitor,
     code = ExitCode::Undecided;
     stopped = stop_reason(spent.spent());
   }
-  const bool is_whole = !call.was_stopped();
+  // Else a repair may not have been tried.
+  const bool is_whole = call.has_spare();
   Report report =
       report_of(std::move(result), inputs ? inputs->tree : TreeInput(), request,
                 code, stopped, call);

@@ -138,6 +138,15 @@ std::string Description::json() const {
       .text();
 }
 
+std::string Explanation::json() const {
+  return Json{{"schema", "btcheck-explanation/1"},
+              {"code", code},
+              {"summary", summary},
+              {"description", description},
+              {"help", help}}
+      .text();
+}
+
 std::string Simulation::json() const {
   constexpr std::array<std::string_view, 6> kEndings = {
       "ended", "fault", "stuck", "ticks", "stopped", "refused"};

@@ -370,6 +370,9 @@ struct Explanation {
   std::string summary;      // a few words
   std::string description;  // whole sentences
   std::string help;         // what to do about it
+
+  // All of it as one object.
+  std::string json() const;
 };
 
 // --- Calls ----------------------------------------------------------------

@@ -28,16 +28,11 @@ Service& the_service() {
   return one;
 }
 
-std::string current_folder() {
-  std::error_code fault;
-  return fs::current_path(fault).string();
-}
-
 // As it is seen from here, where it lies below: one file has one name.
 std::string nearest_name(const std::string& name) {
   const fs::path path = fs::path(name).lexically_normal();
   if (!path.is_absolute()) return path.string();
-  const fs::path near = path.lexically_relative(current_folder());
+  const fs::path near = path.lexically_relative(current_directory());
   return near.empty() || *near.begin() == ".." ? path.string() : near.string();
 }
 
@@ -194,7 +189,7 @@ AskedTree asked_by(const JsonValue& params,
     set(name, params.items[i], asked.fields);
   }
   v1::Request& request = asked.fields.request;
-  request.directory = current_folder();
+  request.directory = current_directory();
   bound(service().seconds, request.seconds);
   bound(service().bytes, request.bytes);
   bound(service().options.max_states, request.states);
@@ -204,8 +199,7 @@ AskedTree asked_by(const JsonValue& params,
   return asked;
 }
 
-// --- Reports that are known
-// ---------------------------------------------------
+// --- Reports that are known -----------------------------------------------
 
 namespace {
 
@@ -281,7 +275,8 @@ class Known final : public v1::KnownReports {
     return all;
   }
 
-  // Threads and limits decide nothing: what a limit has ended is not kept.
+  // Threads decide nothing, nor does the time: what is not whole is not kept. A
+  // bound on states may keep a repair from being tried.
   std::string content(const v1::Request& request,
                       const v1::Inputs& inputs) const {
     Content all;
@@ -289,8 +284,8 @@ class Known final : public v1::KnownReports {
     all.add(inputs.tree);
     all.add(inputs.rules);
     all.add(sources_.settings_text());
-    all.add(fmt::format("{} {} {}", request.ticks, request.tries_repairs,
-                        request.directory));
+    all.add(fmt::format("{} {} {} {} {}", request.ticks, request.tries_repairs,
+                        request.states, request.bytes, request.directory));
     return all.text();
   }
 

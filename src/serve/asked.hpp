@@ -43,7 +43,7 @@ class ServedSources final : public v1::CallSources {
   bool is_of_one_program() const override { return false; }
   std::optional<v1::NamedText> settings(const std::string& tree) override;
 
-  // What settings were asked for and there, for who keeps results.
+  // The settings that were read, for those who keep results; "" for none.
   const std::string& settings_text() const { return settings_text_; }
   // The text that a change of lines is made in.
   Result<InputFile> file(const std::string& name) const;
@@ -67,8 +67,8 @@ AskedTree asked_by(const JsonValue& params,
 // The names that asked_by knows.
 std::vector<std::string> request_names();
 
-// `call` with reports of the same inputs that were asked for before, which are
-// kept as long as there is room.
+// What the calls of api/call.hpp answer, or have answered about the same
+// inputs: the last reports are kept.
 v1::Report checked_once(const AskedTree& asked, v1::Monitor& monitor);
 v1::Report linted_once(const AskedTree& asked, v1::Monitor& monitor);
 

@@ -49,8 +49,7 @@ Json json_of(const std::vector<Diagnostic>& diagnostics) {
   return list;
 }
 
-// --- Methods
-// ------------------------------------------------------------------
+// --- Methods --------------------------------------------------------------
 
 std::string answer_check(const JsonValue& params, Work& work) {
   const AskedTree asked = asked_of(params, work, {"sarif"});
@@ -143,11 +142,7 @@ std::string answer_explain(const JsonValue& params, Work&) {
     throw RpcError(rpc::kInvalidParams,
                    fmt::format("there is no code `{}`", code.substr(0, 80)));
   }
-  return Json{{"code", explained->code},
-              {"summary", explained->summary},
-              {"description", explained->description},
-              {"help", explained->help}}
-      .text();
+  return explained->json();
 }
 
 std::string answer_serve(const JsonValue&, Work&);

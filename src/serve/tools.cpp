@@ -191,8 +191,7 @@ std::map<std::string, std::string> edited_files(const AskedTree& asked,
   return edited;
 }
 
-// --- Reports
-// -------------------------------------------------------------------
+// --- Reports --------------------------------------------------------------
 
 void add_finding(const AskedTree& asked, const v1::Finding& finding,
                  const std::string& name, std::string& text, Json& list) {
@@ -329,8 +328,7 @@ NamedFinding finding_named_by(const JsonValue& arguments, Work& work,
   return found;
 }
 
-// --- The tools
-// -------------------------------------------------------------------
+// --- The tools ------------------------------------------------------------
 
 ToolAnswer check_tree(const JsonValue& arguments, Work& work) {
   const AskedTree asked = asked_by(arguments, {});
@@ -445,8 +443,7 @@ ToolAnswer list_node_types(const JsonValue& arguments, Work&) {
   return answer;
 }
 
-// --- What they are told
-// ------------------------------------------------------------
+// --- What they are told ---------------------------------------------------
 
 using Parameter = ToolParameter;
 constexpr Parameter kTree{"tree", "string",

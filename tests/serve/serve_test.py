@@ -161,6 +161,16 @@ class Serve(unittest.TestCase):
         files = session.result("check", tree="t.xml")["trees"][0]["files"]
         self.assertEqual(files[0]["profile"], "btcpp-4.5")
 
+    def test_what_a_limit_has_shortened_is_not_known_afterwards(self):
+        session = self.session()
+        for limit in ({"seconds": 0.25}, {"seconds": 0.5}, {"seconds": 1},
+                      {"states": 115_000}):
+            session.result("check", tree=NAV2, profile="nav2-main", **limit)
+        own = session.result("check", tree=NAV2, profile="nav2-main")
+        program = json.loads(printed(NAV2, "--profile", "nav2-main", "-q",
+                                     "--format", "json"))
+        self.assertEqual(comparable(own), comparable(program))
+
     # --- Several at a time, and their ends -------------------------------------
 
     def test_cancelled(self):

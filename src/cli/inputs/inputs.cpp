@@ -48,11 +48,6 @@ std::optional<std::string> tree_named_by(const InputFile& properties,
   return std::nullopt;
 }
 
-std::string current_directory() {
-  std::error_code fault;
-  return fs::current_path(fault).string();
-}
-
 // The options with what the settings say; nothing where those are wrong.
 std::optional<Options> with_settings(const InputFile& tree,
                                      const Options& options,
@@ -84,6 +79,11 @@ void take_ticks(const InputFile& properties, Options& options) {
 }
 
 }  // namespace
+
+std::string current_directory() {
+  std::error_code fault;
+  return fs::current_path(fault).string();
+}
 
 Result<InputFile> text_of_settings(const Options& options,
                                    const std::string& name) {

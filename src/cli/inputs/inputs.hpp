@@ -53,6 +53,9 @@ struct Lowered : LoweredInput {
 std::optional<Lowered> read_and_lower(const Options& options);
 std::optional<Lowered> lowered_from(Inputs inputs, const Options& options);
 
+// Absolute; "" where the system does not say.
+std::string current_directory();
+
 // The file whose settings a tree is read with: that of --config, else the
 // btcheck.toml in the folder of the tree or the next above it, up to a folder
 // with `.git`. "" for none.
