@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -125,9 +126,13 @@ class KnownReports {
                     const Report& report) = 0;
 };
 
+// Hears what a check has found before repairs are tried: a report without them,
+// and without pages.
+using FoundFirst = std::function<void(const Report&)>;
+
 // The calls of btcheck/check.hpp, with sources of this program.
 Report checked(const Request& request, CallSources& sources, Monitor* monitor,
-               KnownReports* known = nullptr);
+               KnownReports* known = nullptr, const FoundFirst& first = {});
 Report linted(const Request& request, CallSources& sources, Monitor* monitor,
               KnownReports* known = nullptr);
 Description described(const Request& request, CallSources& sources,

@@ -42,16 +42,10 @@ void add_file(const ReportedFile& file, Report& report) {
   }
 }
 
-Report report_of(CheckResult made, TreeInput input, const Request& request,
-                 ExitCode code, StopReason stopped, const Call& call) {
-  const BudgetScope telling(nullptr);
-  auto whole = std::make_shared<Report::Whole>();
-  whole->result = std::move(made);
-  whole->input = std::move(input);
-  const CheckResult& result = whole->result;
-  whole->report.directory = whole->report.root = request.directory;
-  whole->report.trees.push_back(reported(result, request.tree, code));
-  ReportedTree& told = whole->report.trees[0];
+// What there is to report; `told` is filled with it.
+Report told_of(const CheckResult& result, const Request& request, ExitCode code,
+               StopReason stopped, const Call& call, ReportedTree& told) {
+  told = reported(result, request.tree, code);
   told.seconds = call.seconds();
   Report report;
   report.outcome = static_cast<Outcome>(code);
@@ -70,6 +64,19 @@ Report report_of(CheckResult made, TreeInput input, const Request& request,
   report.stopped = stop_word(stopped);
   for (const ReportedFile& file : told.files) add_file(file, report);
   report.seconds = told.seconds;
+  return report;
+}
+
+Report report_of(CheckResult made, TreeInput input, const Request& request,
+                 ExitCode code, StopReason stopped, const Call& call) {
+  const BudgetScope telling(nullptr);
+  auto whole = std::make_shared<Report::Whole>();
+  whole->result = std::move(made);
+  whole->input = std::move(input);
+  whole->report.directory = whole->report.root = request.directory;
+  whole->report.trees.emplace_back();
+  Report report = told_of(whole->result, request, code, stopped, call,
+                          whole->report.trees[0]);
   report.whole = std::move(whole);
   return report;
 }
@@ -175,13 +182,20 @@ std::string Report::sarif() const {
 }
 
 Report checked(const Request& request, CallSources& sources, Monitor* monitor,
-               KnownReports* known) {
-  return called(request, sources, monitor, known,
-                [&](const Inputs& inputs, Call& call, CheckResult& result) {
-                  result = check_and_repair(inputs.tree, inputs.rules,
-                                            options_of(request, inputs, call));
-                  return exit_code_of(result);
-                });
+               KnownReports* known, const FoundFirst& first) {
+  return called(
+      request, sources, monitor, known,
+      [&](const Inputs& inputs, Call& call, CheckResult& result) {
+        const CheckOptions options = options_of(request, inputs, call);
+        result = btcheck::check(inputs.tree, inputs.rules, options);
+        if (first) {
+          ReportedTree told;
+          first(told_of(result, request, exit_code_of(result), StopReason::None,
+                        call, told));
+        }
+        add_repairs(inputs.tree, inputs.rules, options, result);
+        return exit_code_of(result);
+      });
 }
 
 Report linted(const Request& request, CallSources& sources, Monitor* monitor,

@@ -33,6 +33,7 @@
 #include "report/formats/formats.hpp"
 #include "report/text/report.hpp"
 #include "report/text/space_report.hpp"
+#include "lsp/command.hpp"
 #include "serve/command.hpp"
 #include "text/tables.hpp"
 #include "text/utf8.hpp"
@@ -254,7 +255,7 @@ constexpr auto kRuns = std::to_array<RunOf>({
     {Command::Man, run_man},           {Command::Run, run_run},
     {Command::Monitor, run_monitor},   {Command::Leaves, run_leaves},
     {Command::Answer, run_answer},     {Command::Serve, run_serve},
-    {Command::Mcp, run_mcp},
+    {Command::Mcp, run_mcp},           {Command::Lsp, run_lsp},
 });
 static_assert(is_indexed(kRuns, &RunOf::command));
 

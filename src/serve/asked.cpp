@@ -123,7 +123,7 @@ Result<InputFile> ServedSources::text(const std::string& name) {
 Result<InputFile> ServedSources::file(const std::string& name) const {
   const auto buffer = buffers_.find(buffer_name(name));
   if (buffer != buffers_.end()) return {InputFile{name, buffer->second}, {}};
-  return read_file_in(service().options.roots, name);
+  return read_file_in(options_.roots, name);
 }
 
 NearestFile ServedSources::with_tree(std::string_view tree,
@@ -144,17 +144,17 @@ const XmlProject& ServedSources::project() const {
 std::optional<v1::NamedText> ServedSources::settings(const std::string& tree) {
   const auto read = file(tree);
   if (read.value) {
-    files_.emplace(*read.value, service().options, &buffers_);
+    files_.emplace(*read.value, options_, &buffers_);
   }
   const std::string name =
-      settings_.empty() ? settings_file(service().options, tree) : settings_;
+      settings_.empty() ? settings_file(options_, tree) : settings_;
   if (name.empty()) return std::nullopt;
   const auto buffer = buffers_.find(buffer_name(name));
   auto found = buffer != buffers_.end()
                    ? Result<InputFile>{InputFile{name, buffer->second}, {}}
                : settings_.empty()
-                   ? text_of_settings(service().options, name)
-                   : read_file_in(service().options.roots, name);
+                   ? text_of_settings(options_, name)
+                   : read_file_in(options_.roots, name);
   if (!found.value) {
     throw std::invalid_argument(found.diagnostics.front().message);
   }
@@ -194,8 +194,8 @@ AskedTree asked_by(const JsonValue& params,
   bound(service().bytes, request.bytes);
   bound(service().options.max_states, request.states);
   request.threads = std::min(request.threads, core_count());
-  asked.sources = std::make_unique<ServedSources>(asked.fields.settings,
-                                                  buffers_of(params));
+  asked.sources = std::make_unique<ServedSources>(
+      service().options, asked.fields.settings, buffers_of(params));
   return asked;
 }
 

@@ -30,9 +30,12 @@ void begin_service(Service service);
 // Files of the file system as a command reads them, and texts instead of some.
 class ServedSources final : public v1::CallSources {
  public:
-  // The buffers are named as `buffer_name` does it.
-  ServedSources(std::string settings, Buffers buffers)
-      : settings_(std::move(settings)), buffers_(std::move(buffers)) {}
+  // The buffers are named as `buffer_name` does it. The options must outlive
+  // it.
+  ServedSources(const Options& options, std::string settings, Buffers buffers)
+      : options_(options),
+        settings_(std::move(settings)),
+        buffers_(std::move(buffers)) {}
 
   Result<InputFile> text(const std::string& name) override;
   Result<InputFile> named(const std::string& name) override;
@@ -49,6 +52,7 @@ class ServedSources final : public v1::CallSources {
   Result<InputFile> file(const std::string& name) const;
 
  private:
+  const Options& options_;
   const std::string settings_;  // "": of the tree's folder, or above it
   const Buffers buffers_;
   std::string settings_text_;

@@ -35,6 +35,18 @@ Options confined(const Options& options, bool is_strict) {
 
 ExitCode serve(const Options& options, const Protocol& protocol,
                Framing framing, bool is_strict) {
+  return serve_messages(confined(options, is_strict), protocol, framing,
+                        std::max(1U, options.batch.jobs),
+                        [](Wire&, const Service& all) { begin_service(all); });
+}
+
+}  // namespace
+
+ExitCode serve_messages(
+    const Options& options, const Protocol& protocol, Framing framing,
+    unsigned threads,
+    const std::function<void(Wire&, const Service&)>& begin,
+    const std::function<void()>& end) {
   if (::isatty(STDIN_FILENO) != 0 && !options.is_quiet) {
     tell("waiting for messages of a program; Ctrl-D ends it\n");
   }
@@ -42,19 +54,16 @@ ExitCode serve(const Options& options, const Protocol& protocol,
   InterruptWatch::stand_down();
   Guard::dismiss();
   std::signal(SIGPIPE, SIG_IGN);
-  const unsigned jobs = std::max(1U, options.batch.jobs);
   // The limit of time is that of each request; that of memory is shared.
   limits_of_command().allow(0, memory_limit(options));
-  begin_service({confined(options, is_strict), options.timeout,
-                 memory_limit(options) / jobs});
   const OpenFile in(::dup(STDIN_FILENO));
   const OpenFile out(::dup(STDOUT_FILENO));
   Wire wire(in, out, framing);
-  const bool is_understood = Server(wire, protocol, jobs).run();
+  begin(wire, {options, options.timeout, memory_limit(options) / threads});
+  const bool is_understood = Server(wire, protocol, threads).run();
+  if (end) end();
   return is_understood ? ExitCode::Met : ExitCode::BadInput;
 }
-
-}  // namespace
 
 ExitCode run_serve(const Options& options) {
   return serve(options, serve_protocol(), Framing::Headers, false);

@@ -57,7 +57,7 @@ bool Work::goes_on(const v1::Progress& progress) {
 bool Server::run() {
   std::vector<std::jthread> threads;
   for (unsigned i = 0; i < thread_count_; ++i) {
-    threads.emplace_back([this] { work(); });
+    threads.emplace_back([this, i] { work(i > 0); });
   }
   try {
     for (bool goes_on = true; goes_on;) {
@@ -78,7 +78,7 @@ bool Server::run() {
 // What was asked for is answered, as long as somebody listens.
 void Server::drain() {
   std::unique_lock lock(mutex_);
-  while (!at_work_.empty()) {
+  while (!at_work_.empty() || !waiting_.empty()) {
     changed_.wait_for(lock, kLookInterval);
     if (wire_.is_heard()) continue;
     for (const auto& [id, work] : at_work_) work->cancel();
@@ -101,8 +101,10 @@ bool Server::take(const Wire::Received& received) {
       cancel(message.params);
     } else if (message.method == protocol_.end) {
       return false;
+    } else {
+      take_notice(std::move(message));
     }
-    return true;  // a notification that nobody knows is passed over
+    return true;
   } catch (const RpcError& fault) {
     return wire_.send(error_text(id, fault));
   } catch (const std::bad_alloc&) {
@@ -120,13 +122,13 @@ void Server::begin(RpcMessage message) {
   }
   auto work =
       std::make_shared<Work>(wire_, message.id, protocol_.progress_text);
-  Job job{std::move(message), &*method, std::move(work)};
+  Job job{std::move(message), &*method, nullptr, std::move(work)};
   if (!method->is_long) {
     wire_.send(answer_to(job));
     return;
   }
   const std::scoped_lock lock(mutex_);
-  if (waiting_.size() == kMostWaiting) {
+  if (waiting_.size() >= kMostWaiting) {
     throw RpcError(rpc::kOverload,
                    fmt::format("{} requests wait already", kMostWaiting));
   }
@@ -135,7 +137,18 @@ void Server::begin(RpcMessage message) {
                    "a request with this `id` is not answered yet");
   }
   waiting_.push_back(std::move(job));
-  changed_.notify_one();
+  changed_.notify_all();
+}
+
+// One that nobody knows is passed over. However many wait, none is lost: what
+// is told later rests on it.
+void Server::take_notice(RpcMessage message) {
+  const auto notice =
+      std::ranges::find(protocol_.notices, message.method, &NoticeRow::name);
+  if (notice == protocol_.notices.end()) return;
+  const std::scoped_lock lock(mutex_);
+  waiting_.push_back({std::move(message), nullptr, &*notice, nullptr});
+  changed_.notify_all();
 }
 
 // Whoever cancels what is unknown, or answered, or cancelled, came too late.
@@ -163,24 +176,43 @@ void Server::cancel(const JsonValue& params) {
 }
 
 std::string Server::answer_to(const Job& job) const {
+  if (job.notice != nullptr) {
+    try {
+      job.notice->take(job.message.params);
+    } catch (const std::exception&) {
+      // There is nobody to tell: a notification has no answer.
+    }
+    return {};
+  }
   const std::string text = answer_text(job.message, *job.method, *job.work);
   return job.work->is_cancelled() && !protocol_.answers_cancelled
              ? std::string()
              : text;
 }
 
-void Server::work() {
+// The first that waits for a thread of this kind.
+std::deque<Server::Job>::iterator Server::next_job(bool is_aside) {
+  if (protocol_.notices.empty()) return waiting_.begin();
+  return std::ranges::find_if(waiting_, [&](const Job& job) {
+    return (job.method != nullptr && job.method->is_aside) == is_aside;
+  });
+}
+
+void Server::work(bool is_aside) {
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return is_over_ || !waiting_.empty(); });
-    if (waiting_.empty()) return;
-    const Job job = std::move(waiting_.front());
-    waiting_.pop_front();
+    changed_.wait(lock, [&] {
+      return is_over_ || next_job(is_aside) != waiting_.end();
+    });
+    const auto next = next_job(is_aside);
+    if (next == waiting_.end()) return;
+    const Job job = std::move(*next);
+    waiting_.erase(next);
     lock.unlock();
     const std::string text = answer_to(job);
     lock.lock();
     // Nothing of it is left when its answer is read: its id may be used again.
-    at_work_.erase(job.message.id);
+    if (job.method != nullptr) at_work_.erase(job.message.id);
     lock.unlock();
     if (!text.empty()) wire_.send(text);
     lock.lock();

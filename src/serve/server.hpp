@@ -62,6 +62,15 @@ struct MethodRow {
   // throws.
   std::string (*answer)(const JsonValue& params, Work& work);
   bool is_long = false;
+  // Of those that notices stand between: it waits for what others do, and its
+  // turn is another's.
+  bool is_aside = false;
+};
+
+// What is told and not answered.
+struct NoticeRow {
+  std::string_view name;
+  void (*take)(const JsonValue& params);
 };
 
 // What two protocols call the same.
@@ -72,6 +81,9 @@ struct Protocol {
   std::string_view cancel_id;  // its member: "id"
   std::string_view end;        // a notification that ends it; "" for none
   bool answers_cancelled;      // with an error
+  // Taken in their turn among the long methods, in the order in which all came:
+  // where there are any, one thread does all but what is aside.
+  std::span<const NoticeRow> notices = {};
 };
 
 class Server {
@@ -86,16 +98,19 @@ class Server {
  private:
   struct Job {
     RpcMessage message;
-    const MethodRow* method = nullptr;
+    const MethodRow* method = nullptr;  // null of a notice
+    const NoticeRow* notice = nullptr;
     std::shared_ptr<Work> work;
   };
 
   // False at the end.
   bool take(const Wire::Received& received);
   void begin(RpcMessage message);
+  void take_notice(RpcMessage message);
   void cancel(const JsonValue& params);
   std::string answer_to(const Job& job) const;
-  void work();
+  void work(bool is_aside);
+  std::deque<Job>::iterator next_job(bool is_aside);
   void drain();
 
   Wire& wire_;

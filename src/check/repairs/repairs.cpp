@@ -240,14 +240,19 @@ CheckResult check_and_repair(const TreeInput& tree,
                              const std::vector<InputFile>& properties,
                              const CheckOptions& options) {
   CheckResult result = check(tree, properties, options);
-  if (options.tries_repairs && is_complete(result)) {
-    try {
-      Repairing(tree, properties, options, result).run();
-    } catch (const BudgetSpent&) {
-      // Then what was found is told with fewer repairs.
-    }
-  }
+  add_repairs(tree, properties, options, result);
   return result;
+}
+
+void add_repairs(const TreeInput& tree,
+                 const std::vector<InputFile>& properties,
+                 const CheckOptions& options, CheckResult& result) {
+  if (!options.tries_repairs || !is_complete(result)) return;
+  try {
+    Repairing(tree, properties, options, result).run();
+  } catch (const BudgetSpent&) {
+    // Then what was found is told with fewer repairs.
+  }
 }
 
 }  // namespace btcheck

@@ -19,4 +19,9 @@ CheckResult check_and_repair(const TreeInput& tree,
                              const std::vector<InputFile>& properties,
                              const CheckOptions& options);
 
+// The second half of it, with what the first has made of the same inputs.
+void add_repairs(const TreeInput& tree,
+                 const std::vector<InputFile>& properties,
+                 const CheckOptions& options, CheckResult& result);
+
 }  // namespace btcheck

@@ -43,7 +43,8 @@ enum class Command : std::uint8_t {
   Leaves,
   Answer,
   Serve,
-  Mcp
+  Mcp,
+  Lsp
 };
 
 // The tree that `btcheck -` reads.

@@ -190,6 +190,14 @@ constexpr CommandRow kCommands[] = {
          "Answers an agent on standard input and output: check_tree, "
          "explain_finding, propose_repair, apply_repair, simulate and "
          "list_node_types. Reads what lies in --root, and writes nothing."},
+    {.command = Lsp,
+     .word = "lsp",
+     .summary = "what editors ask while you type",
+     .description =
+         "Answers an editor on standard input and output, by the Language "
+         "Server Protocol: what is wrong as you type, what a search finds and "
+         "what repairs it, hover, completion, definitions, names changed in all "
+         "files. docs/editors.md says how editors start it."},
     {.command = Completions,
      .word = "completions",
      .argument = ArgumentKind::Shell,
@@ -216,20 +224,21 @@ constexpr CommandSet kReadsBtf = {Check,    Batch, Lint,    Space, Export,
                                   Simulate, Init,  Conform, Run};
 constexpr CommandSet kHasSettings = {
     Check,   Batch, Lint,   Space,           Export, Simulate, Init,
-    Conform, Run,   Leaves, Command::Answer, Serve,  Mcp};
+    Conform, Run,   Leaves, Command::Answer, Serve,  Mcp,
+    Lsp};
 constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space,
                                   Demo,  Init,  Command::Answer};
 constexpr CommandSet kCountsStates = {
-    Check, Batch, Space, Demo, Init, Conform, Command::Answer, Serve, Mcp};
+    Check, Batch, Space, Demo, Init, Conform, Command::Answer, Serve, Mcp, Lsp};
 constexpr CommandSet kLimited = {
     Check, Batch, Lint,    Space,  Export,          Trace, Demo, Simulate,
-    Init,  Run,   Conform, Leaves, Command::Answer, Serve, Mcp};
+    Init,  Run,   Conform, Leaves, Command::Answer, Serve, Mcp, Lsp};
 constexpr CommandSet kEvery = {
     Check,    Batch,       Lint, Space,  Export,          Trace,
     Simulate, Explain,     Demo, Init,   Conform,         Run,
     Monitor,  Completions, Man,  Leaves, Command::Answer, Serve,
-    Mcp};
+    Mcp, Lsp};
 
 constexpr std::string_view kProfileNames =
     "paper btcpp-3.5.1 btcpp-3.5 btcpp-3.6 btcpp-3.7 btcpp-3.8 btcpp-4.0 "
@@ -650,7 +659,7 @@ constexpr OptionRow kOptions[] = {
      .example = "btcheck serve --stdio --jobs 4"},
     {.name = "--stdio",
      .help = "on standard input and output; there is no other way yet",
-     .commands = {Serve},
+     .commands = {Serve, Lsp},
      .first = {Serve},
      .example = "btcheck serve --stdio"},
     {.name = "--shard",

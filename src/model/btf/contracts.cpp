@@ -295,6 +295,8 @@ void check_results(const Scope& scope, const Node& leaf) {
 
 }  // namespace
 
+std::span<const KeywordRule> contract_keywords() { return kContractRules; }
+
 bool ContractDraft::has_behavior() const {
   return has_returns || memory || duration || requirement || decision ||
          !on_success.empty() || !on_failure.empty();

@@ -185,6 +185,13 @@ std::optional<long long> whole_number(std::string_view text);
 bool looks_numeric(std::string_view text);
 // The name in `$name`, or the word as it is.
 std::string_view without_dollar(std::string_view word);
+// The words that open a form of a .btf file, and the keywords that its nodes,
+// variables and contracts have: for who colours or completes them.
+std::vector<std::string> definition_words();
+std::span<const KeywordRule> node_keywords();
+std::span<const KeywordRule> variable_keywords();
+std::span<const KeywordRule> contract_keywords();
+
 // True for a word that can name something: no number, no operator, no `$`.
 bool is_name(std::string_view word);
 // A word in lower case: two names are the same when their keys are.

@@ -387,6 +387,8 @@ class NodeReader {
 
 }  // namespace
 
+std::span<const KeywordRule> node_keywords() { return kKeywords; }
+
 std::optional<NodeType> find_node_type(std::string_view word) {
   for (const NodeTypeInfo& info : kNodeTypes) {
     const bool is_here = has(info.in, In::Btf);

@@ -131,8 +131,7 @@ class FileReader {
   void report_unknown(const Form& head) const {
     const bool is_node = find_node_type(head.text).has_value();
     if (is_node && !reading_.forms.is_balanced) return;
-    const std::vector<std::string> known = {
-        "defsv", "BehaviorTree", "Trees", "defaction", "defcondition", "defun"};
+    const std::vector<std::string> known = definition_words();
     reading_.error(
         head.span, "BT1004",
         is_node ? fmt::format("`{}` stands outside of every BehaviorTree",
@@ -243,6 +242,12 @@ class FileReader {
 };
 
 }  // namespace
+
+std::vector<std::string> definition_words() {
+  return {"defsv",     "BehaviorTree", "Trees",
+          "defaction", "defcondition", "defun"};
+}
+
 }  // namespace btf
 
 Result<BehaviorTree> read_btf(std::string_view file_name, const FileText& text,

@@ -347,6 +347,8 @@ class Declaration {
 
 }  // namespace
 
+std::span<const KeywordRule> variable_keywords() { return kRules; }
+
 void report_unknown_state(const Reading& reading, const Form& word,
                           const StateVariable& variable) {
   reading.error(

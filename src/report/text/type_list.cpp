@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "model/btcpp/known_types.hpp"
 #include "model/tree/node_types.hpp"
 #include "report/text/type_text.hpp"
 
@@ -48,16 +47,9 @@ std::string ports_text(const NodeTypeRow& row, int release) {
 }
 
 std::string line_of(const NodeTypeRow& row, Profile profile) {
-  Node node;
-  node.type = row.type;
-  node.id = row.id;
-  node.contract.may_succeed = row.answers.may_succeed;
-  node.contract.may_fail = row.answers.may_fail;
-  node.contract.may_run = row.answers.may_run;
-  node.contract.may_skip = false;
   return fmt::format("{}: {}{}. {}", row.id, kind_name(row.kind),
                      ports_text(row, engine_release(profile)),
-                     type_text(node, profile));
+                     about_type(row, profile));
 }
 
 // Of a .btf tree.
@@ -95,6 +87,17 @@ std::vector<std::string> all_lines(Profile profile) {
 }
 
 }  // namespace
+
+std::string about_type(const NodeTypeRow& row, Profile profile) {
+  Node node;
+  node.type = row.type;
+  node.id = row.id;
+  node.contract.may_succeed = row.answers.may_succeed;
+  node.contract.may_fail = row.answers.may_fail;
+  node.contract.may_run = row.answers.may_run;
+  node.contract.may_skip = false;
+  return type_text(node, profile);
+}
 
 std::vector<std::string> type_lines(Profile profile, std::string_view part) {
   std::vector<std::string> lines = all_lines(profile);
