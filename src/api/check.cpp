@@ -183,19 +183,19 @@ std::string Report::sarif() const {
 
 Report checked(const Request& request, CallSources& sources, Monitor* monitor,
                KnownReports* known, const FoundFirst& first) {
-  return called(
-      request, sources, monitor, known,
-      [&](const Inputs& inputs, Call& call, CheckResult& result) {
-        const CheckOptions options = options_of(request, inputs, call);
-        result = btcheck::check(inputs.tree, inputs.rules, options);
-        if (first) {
-          ReportedTree told;
-          first(told_of(result, request, exit_code_of(result), StopReason::None,
-                        call, told));
-        }
-        add_repairs(inputs.tree, inputs.rules, options, result);
-        return exit_code_of(result);
-      });
+  return called(request, sources, monitor, known,
+                [&](const Inputs& inputs, Call& call, CheckResult& result) {
+                  const CheckOptions options =
+                      options_of(request, inputs, call);
+                  result = btcheck::check(inputs.tree, inputs.rules, options);
+                  if (first) {
+                    ReportedTree told;
+                    first(told_of(result, request, exit_code_of(result),
+                                  StopReason::None, call, told));
+                  }
+                  add_repairs(inputs.tree, inputs.rules, options, result);
+                  return exit_code_of(result);
+                });
 }
 
 Report linted(const Request& request, CallSources& sources, Monitor* monitor,

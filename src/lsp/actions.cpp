@@ -57,14 +57,14 @@ std::vector<FindingHere> findings_in(const View& view, const Range& range) {
   return all;
 }
 
-Json edit_of_files(const View& view,
-                   const std::map<std::string, Json>& edits) {
+Json edit_of_files(const View& view, const std::map<std::string, Json>& edits) {
   Json changes = Json::object();
   for (const auto& [path, list] : edits) changes.add(view.uri(path), list);
   return {{"changes", changes}};
 }
 
-// --- Repairs --------------------------------------------------------------------
+// --- Repairs
+// --------------------------------------------------------------------
 
 // The line ends of a text.
 std::string_view line_end(std::string_view text) {
@@ -116,14 +116,14 @@ std::optional<Json> repair(const View& view, const FindingHere& here) {
               {"edit", edit_of_files(view, edits)}};
 }
 
-// --- Comments that allow --------------------------------------------------------
+// --- Comments that allow
+// --------------------------------------------------------
 
 constexpr std::string_view kReason = "why this is meant";
 
 std::optional<Json> allowance(const View& view, const FindingHere& here) {
   const CodeRow* row = code_named(here.finding->code);
-  if (row == nullptr || !has_level(*row) ||
-      here.finding->where.line == 0) {
+  if (row == nullptr || !has_level(*row) || here.finding->where.line == 0) {
     return std::nullopt;
   }
   const std::string& text = view.document.text.text();
@@ -141,9 +141,8 @@ std::optional<Json> allowance(const View& view, const FindingHere& here) {
     const std::size_t element = scan->tag_at(here.at.begin);
     comment = fmt::format("<!-- {} -->", comment);
     // A tag that is not the first of its line has the comment before it.
-    const std::size_t tag = element == kNone
-                                ? whole.begin + indent
-                                : (*scan)[element].start_tag.begin;
+    const std::size_t tag = element == kNone ? whole.begin + indent
+                                             : (*scan)[element].start_tag.begin;
     if (tag > whole.begin + indent) {
       at = tag;
     } else {
@@ -164,7 +163,8 @@ std::optional<Json> allowance(const View& view, const FindingHere& here) {
               {"edit", edit_of_files(view, {{view.document.path, edits}})}};
 }
 
-// --- Rules ----------------------------------------------------------------------
+// --- Rules
+// ----------------------------------------------------------------------
 
 // A rule that is violated while the finding is there. `{0}` is the node, `{1}`
 // the root of its tree.
@@ -224,9 +224,8 @@ std::optional<Json> rule(const View& view, const FindingHere& here) {
       std::ranges::find(kRuleForms, here.finding->code, &RuleForm::code);
   if (form == kRuleForms.end() || !here.look->description) return std::nullopt;
   const auto nodes = nodes_at(view, view.document.path, here.at.begin);
-  const auto found = std::ranges::find_if(nodes, [&](const NodeHere& node) {
-    return node.look == here.look;
-  });
+  const auto found = std::ranges::find_if(
+      nodes, [&](const NodeHere& node) { return node.look == here.look; });
   if (found == nodes.end()) return std::nullopt;
   std::size_t root = found->number;
   const auto& all = here.look->description->nodes;
@@ -242,16 +241,17 @@ std::optional<Json> rule(const View& view, const FindingHere& here) {
   put("{0}", name);
   put("{1}", rule_name(*here.look, root));
   const std::string& tree = here.look->subject.tree;
-  const std::string text = fmt::format(
-      "\n## {}\nproperty {}_{}: {}\n", form->title,
-      plain_word(all[found->number].label), form->suffix, body);
+  const std::string text =
+      fmt::format("\n## {}\nproperty {}_{}: {}\n", form->title,
+                  plain_word(all[found->number].label), form->suffix, body);
   // Into the rules that there are, or into new ones beside the tree.
   std::string path = fs::path(tree).replace_extension(".ltl").string();
   for (const auto& [known, known_text] : *view.texts) {
-    const bool is_about = kind_of(known, {}) == FileKind::Rules &&
-                          std::ranges::any_of(view.looks, [&](const Look& look) {
-                            return look.subject.rules == known;
-                          });
+    const bool is_about =
+        kind_of(known, {}) == FileKind::Rules &&
+        std::ranges::any_of(view.looks, [&](const Look& look) {
+          return look.subject.rules == known;
+        });
     if (is_about) path = known;
   }
   Json changes = Json::array();
@@ -269,8 +269,8 @@ std::optional<Json> rule(const View& view, const FindingHere& here) {
   }
   Json edits = Json::array();
   edits.push(text_edit(at, added));
-  changes.push(Json{{"textDocument", Json{{"uri", view.uri(path)},
-                                          {"version", Json::null()}}},
+  changes.push(Json{{"textDocument",
+                     Json{{"uri", view.uri(path)}, {"version", Json::null()}}},
                     {"edits", edits}});
   return Json{{"title",
                fmt::format("btcheck: write a rule for this ({}_{})",
@@ -295,8 +295,8 @@ Json actions(const View& view, const Range& range) {
   for (const FindingHere& each : here) {
     if (!each.finding->run || each.finding->run->name.empty()) continue;
     Json arguments = Json::array();
-    arguments.push(Json{{"uri", view.document.uri},
-                        {"run", each.finding->run->name}});
+    arguments.push(
+        Json{{"uri", view.document.uri}, {"run", each.finding->run->name}});
     all.push(Json{{"title", fmt::format("btcheck: show the run of {}",
                                         each.finding->code)},
                   {"kind", "source"},

@@ -60,7 +60,8 @@ class Items {
   Json all_ = Json::array();
 };
 
-// --- XML ------------------------------------------------------------------------
+// --- XML
+// ------------------------------------------------------------------------
 
 // In a snippet these mean something.
 std::string escaped(std::string_view text) {
@@ -137,8 +138,8 @@ void add_tags(const View& view, const XmlScan& scan, std::size_t at,
   for (const TypeWord& type : all_types(view)) {
     const bool is_leaf = type.kind == "Action" || type.kind == "Condition";
     const std::string snippet = tag_snippet(type);
-    items.add(type.id, is_leaf ? items_of::kFunction : items_of::kClass, type.kind,
-              type.about,
+    items.add(type.id, is_leaf ? items_of::kFunction : items_of::kClass,
+              type.kind, type.about,
               items.takes_snippets() ? snippet : std::string_view(type.id),
               items.takes_snippets());
   }
@@ -223,7 +224,8 @@ void add_entries(const View& view, const XmlScan& scan, Items& items,
         })) {
       continue;
     }
-    items.add(in_braces ? "{" + name + "}" : name, items_of::kVariable, "entry");
+    items.add(in_braces ? "{" + name + "}" : name, items_of::kVariable,
+              "entry");
   }
 }
 
@@ -243,8 +245,8 @@ Json complete_value(const View& view, const XmlScan& scan, std::size_t element,
       open != written.npos && written.find('}', open) == written.npos;
   TextStretch replaced = before;
   if (is_script && !is_in_braces) {
-    replaced.begin = word_at(scan.text(before), written.size()).begin +
-                     before.begin;
+    replaced.begin =
+        word_at(scan.text(before), written.size()).begin + before.begin;
   } else if (is_in_braces) {
     replaced.begin = before.begin + open;
     if (view.document.text.text().substr(at).starts_with('}')) {
@@ -340,7 +342,8 @@ Json complete_xml(const View& view, std::size_t at, bool takes_snippets) {
   return items.list();
 }
 
-// --- Rules ----------------------------------------------------------------------
+// --- Rules
+// ----------------------------------------------------------------------
 
 Json complete_rules(const View& view, std::size_t at, bool takes_snippets) {
   const std::string_view text = view.document.text.text();
@@ -350,8 +353,8 @@ Json complete_rules(const View& view, std::size_t at, bool takes_snippets) {
   const std::string_view before = text.substr(line, begin - line);
   Items items(view, {begin, at}, takes_snippets);
   const std::size_t mark = before.find_first_not_of(" \t");
-  if (mark != before.npos && std::string_view("#;").find(before[mark]) !=
-                                 std::string_view::npos) {
+  if (mark != before.npos &&
+      std::string_view("#;").find(before[mark]) != std::string_view::npos) {
     return items.list();
   }
   const auto add_words = [&](RuleWordKind which, int as) {
@@ -364,16 +367,17 @@ Json complete_rules(const View& view, std::size_t at, bool takes_snippets) {
     return items.list();
   }
   const std::size_t quote = before.rfind('"');
-  const bool is_tree =
-      mark != before.npos && before.substr(mark).starts_with("tree") &&
-      quote != before.npos;
+  const bool is_tree = mark != before.npos &&
+                       before.substr(mark).starts_with("tree") &&
+                       quote != before.npos;
   if (is_tree) {
-    const std::string folder = view.document.path.substr(
-        0, view.document.path.find_last_of('/') + 1);
+    const std::string folder =
+        view.document.path.substr(0, view.document.path.find_last_of('/') + 1);
     Items files(view, {line + quote + 1, at}, takes_snippets);
     for (const auto& [path, known] : *view.texts) {
       const FileKind of = kind_of(path, {});
-      if ((of == FileKind::Xml || of == FileKind::Btf) && path.starts_with(folder)) {
+      if ((of == FileKind::Xml || of == FileKind::Btf) &&
+          path.starts_with(folder)) {
         files.add(path.substr(folder.size()), items_of::kFile, {});
       }
     }
@@ -402,13 +406,14 @@ Json complete_rules(const View& view, std::size_t at, bool takes_snippets) {
   return items.list();
 }
 
-// --- .btf and contracts -----------------------------------------------------------
+// --- .btf and contracts
+// -----------------------------------------------------------
 
 Json complete_forms(const View& view, std::size_t at, bool takes_snippets) {
   const std::string_view text = view.document.text.text();
   std::size_t begin = at;
-  while (begin > 0 && (is_word_letter(text[begin - 1]) ||
-                       text[begin - 1] == '-')) {
+  while (begin > 0 &&
+         (is_word_letter(text[begin - 1]) || text[begin - 1] == '-')) {
     --begin;
   }
   const std::size_t line = begin == 0 ? 0 : text.rfind('\n', begin - 1) + 1;
@@ -420,7 +425,8 @@ Json complete_forms(const View& view, std::size_t at, bool takes_snippets) {
   const bool is_tree = view.document.kind == FileKind::Btf;
   if (mark == '(') {
     if (!is_tree) {
-      for (const char* each : {"defaction", "defcondition", "defsv", "defenum"}) {
+      for (const char* each :
+           {"defaction", "defcondition", "defsv", "defenum"}) {
         items.add(each, items_of::kKeyword, {});
       }
       return items.list();
@@ -458,11 +464,15 @@ Json complete_forms(const View& view, std::size_t at, bool takes_snippets) {
 Json completions(const View& view, Position place, bool takes_snippets) {
   const std::size_t at = view.lines->offset(place, view.encoding);
   switch (view.document.kind) {
-    case FileKind::Xml: return complete_xml(view, at, takes_snippets);
-    case FileKind::Rules: return complete_rules(view, at, takes_snippets);
+    case FileKind::Xml:
+      return complete_xml(view, at, takes_snippets);
+    case FileKind::Rules:
+      return complete_rules(view, at, takes_snippets);
     case FileKind::Btf:
-    case FileKind::Leaves: return complete_forms(view, at, takes_snippets);
-    case FileKind::Other: break;
+    case FileKind::Leaves:
+      return complete_forms(view, at, takes_snippets);
+    case FileKind::Other:
+      break;
   }
   return Items(view, {at, at}, takes_snippets).list();
 }

@@ -9,6 +9,7 @@
 #include "ltl/rules/property.hpp"
 #include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/tree_file.hpp"
+#include "report/formats/reported.hpp"
 
 namespace btcheck::lsp {
 namespace {
@@ -23,6 +24,12 @@ int severity_number(v1::Level level) {
 // The run came to an end because an edit or a limit ended it.
 bool is_of_the_call(const v1::Finding& finding) {
   return finding.code.starts_with("BT90");
+}
+
+// What has come of a rule that is not as it is expected to be.
+bool is_of_rule(const v1::Finding& finding) {
+  return finding.code == rule::kViolated || finding.code == rule::kHolds ||
+         finding.code == rule::kUndecided;
 }
 
 }  // namespace
@@ -62,6 +69,17 @@ void DiagnosticList::add(const v1::Report& report, const Buffers& then) {
   for (const v1::Finding& finding : report.findings) {
     if (!is_of_the_call(finding)) add(finding, then);
   }
+  // A rule is told at the node that breaks it; and where it stands.
+  for (const v1::Rule& rule : report.rules) {
+    for (v1::Finding finding : report.findings) {
+      if (!is_of_rule(finding) ||
+          !finding.message.starts_with(rule.name + " is ")) {
+        continue;
+      }
+      finding.where = rule.where;
+      add(finding, then);
+    }
+  }
 }
 
 void DiagnosticList::add(const v1::Finding& finding, const Buffers& then) {
@@ -83,10 +101,10 @@ void DiagnosticList::add(const v1::Finding& finding, const Buffers& then) {
       const auto place = moved(step.where, then, texts_);
       if (!step.is_chosen || !place || count++ >= kMostRelated) continue;
       const auto of = texts_.at(step.where.file).parsed<Lines>();
-      related.push({{"location",
-                     Json{{"uri", uri_of(step.where.file)},
-                          {"range", json_of(of->range(*place, encoding_))}}},
-                    {"message", step.text}});
+      related.push(
+          {{"location", Json{{"uri", uri_of(step.where.file)},
+                             {"range", json_of(of->range(*place, encoding_))}}},
+           {"message", step.text}});
     }
   }
   if (!related.is_empty()) json.add("relatedInformation", related);

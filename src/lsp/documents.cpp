@@ -23,9 +23,8 @@ int hex_digit(char c) {
 std::string decoded(std::string_view text) {
   std::string result;
   for (std::size_t at = 0; at < text.size(); ++at) {
-    const int high = text[at] == '%' && at + 2 < text.size()
-                         ? hex_digit(text[at + 1])
-                         : -1;
+    const int high =
+        text[at] == '%' && at + 2 < text.size() ? hex_digit(text[at + 1]) : -1;
     const int low = high < 0 ? -1 : hex_digit(text[at + 2]);
     if (low < 0) {
       result += text[at];
@@ -69,8 +68,9 @@ std::string path_of(std::string_view uri) {
 std::string uri_of(std::string_view path) {
   std::string uri = "file://";
   for (const char c : path) {
-    const bool is_plain = is_letter(c) || is_digit(c) ||
-                          std::string_view("/-._~").find(c) != std::string::npos;
+    const bool is_plain =
+        is_letter(c) || is_digit(c) ||
+        std::string_view("/-._~").find(c) != std::string::npos;
     if (is_plain) {
       uri += c;
     } else {

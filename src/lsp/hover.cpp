@@ -15,8 +15,8 @@
 namespace btcheck::lsp {
 namespace {
 
-constexpr std::size_t kMostNodes = 3;    // of a subtree that is used often
-constexpr std::size_t kMostNames = 8;    // of writers and readers
+constexpr std::size_t kMostNodes = 3;  // of a subtree that is used often
+constexpr std::size_t kMostNames = 8;  // of writers and readers
 
 // Marks of Markdown in somebody's text are text.
 std::string plain(std::string_view text) {
@@ -43,7 +43,8 @@ Json markdown(const View& view, const std::string& text, TextStretch part) {
           {"range", json_of(view.range(part))}};
 }
 
-// --- What is proven ---------------------------------------------------------------
+// --- What is proven
+// ---------------------------------------------------------------
 
 // "can succeed", "never fails"; nothing where it cannot be asked.
 void add_answer(const std::optional<v1::Verdict>& verdict, std::string_view can,
@@ -69,11 +70,11 @@ std::string proven_text(const NodeHere& here) {
     add_answer(node.is_halted, "can be halted", "is never halted", all);
   }
   if (all.empty()) return {};
-  return fmt::format("Proven over all runs: {}.",
-                     fmt::join(all, ", "));
+  return fmt::format("Proven over all runs: {}.", fmt::join(all, ", "));
 }
 
-// --- Entries ------------------------------------------------------------------------
+// --- Entries
+// ------------------------------------------------------------------------
 
 std::string names_of(const Look& look, const std::vector<std::size_t>& nodes) {
   std::vector<std::string> all;
@@ -83,9 +84,9 @@ std::string names_of(const Look& look, const std::vector<std::size_t>& nodes) {
       break;
     }
     const v1::DescribedNode& node = look.description->nodes[each];
-    all.push_back(fmt::format(
-        "{} (line {})", code(node.label.empty() ? node.type : node.label),
-        node.where.line));
+    all.push_back(fmt::format("{} (line {})",
+                              code(node.label.empty() ? node.type : node.label),
+                              node.where.line));
   }
   return all.empty() ? "nobody in the tree"
                      : fmt::format("{}", fmt::join(all, ", "));
@@ -93,10 +94,9 @@ std::string names_of(const Look& look, const std::vector<std::size_t>& nodes) {
 
 std::string entry_text(const Look& look, std::size_t number) {
   const v1::Entry& entry = look.description->entries[number];
-  std::string text =
-      fmt::format("**entry** {}  \nwritten by {}  \nread by {}",
-                  code(entry.name), names_of(look, entry.writers),
-                  names_of(look, entry.readers));
+  std::string text = fmt::format(
+      "**entry** {}  \nwritten by {}  \nread by {}", code(entry.name),
+      names_of(look, entry.writers), names_of(look, entry.readers));
   if (!entry.values.empty()) {
     std::vector<std::string> values;
     for (const std::string& each : entry.values) values.push_back(code(each));
@@ -111,25 +111,8 @@ std::string entry_named(const View& view, std::string_view name,
                         const std::vector<NodeHere>& nodes) {
   if (name.starts_with('@')) name.remove_prefix(1);
   for (const NodeHere& here : nodes) {
-    for (const auto* list : {&here.node().reads, &here.node().writes}) {
-      for (const std::size_t each : *list) {
-        if (here.look->description->entries[each].name == name) {
-          return entry_text(*here.look, each);
-        }
-      }
-    }
-    for (const v1::Port& port : here.node().ports) {
-      if (port.entry.empty() || port.value != fmt::format("{{{}}}", name)) {
-        continue;
-      }
-      const auto& entries = here.look->description->entries;
-      const auto found =
-          std::ranges::find(entries, port.entry, &v1::Entry::name);
-      if (found != entries.end()) {
-        return entry_text(*here.look, static_cast<std::size_t>(
-                                          found - entries.begin()));
-      }
-    }
+    const std::size_t found = entry_of(here, name);
+    if (found != kNone) return entry_text(*here.look, found);
   }
   const Look* look = described_look(view);
   if (look == nullptr) return {};
@@ -137,11 +120,12 @@ std::string entry_named(const View& view, std::string_view name,
   const auto found = std::ranges::find(entries, name, &v1::Entry::name);
   return found == entries.end()
              ? std::string()
-             : entry_text(*look, static_cast<std::size_t>(found -
-                                                          entries.begin()));
+             : entry_text(*look,
+                          static_cast<std::size_t>(found - entries.begin()));
 }
 
-// --- Types and ports ----------------------------------------------------------------
+// --- Types and ports
+// ----------------------------------------------------------------
 
 std::string port_line(const PortWord& port) {
   std::string text = fmt::format("- {}", code(port.name));
@@ -190,7 +174,8 @@ std::string findings_text(const View& view, TextStretch word) {
   return text;
 }
 
-// --- XML ----------------------------------------------------------------------------
+// --- XML
+// ----------------------------------------------------------------------------
 
 std::optional<Json> hover_attribute(const View& view, const XmlScan& scan,
                                     std::size_t element,
@@ -209,8 +194,8 @@ std::optional<Json> hover_attribute(const View& view, const XmlScan& scan,
     const TextStretch word = word_at(view.document.text.text(), at);
     const std::string text = entry_named(
         view, view.document.text.text().substr(word.begin, word.size()), nodes);
-    const bool is_script = name == "code" || name == "if" ||
-                           name.starts_with("_");
+    const bool is_script =
+        name == "code" || name == "if" || name.starts_with("_");
     if (is_script && !text.empty()) return markdown(view, text, word);
   }
   const auto type = type_named(view, type_of(scan, element));
@@ -268,7 +253,8 @@ Json hover_xml(const View& view, std::size_t at) {
   return text.empty() ? Json::null() : markdown(view, text, word);
 }
 
-// --- Rules and .btf -------------------------------------------------------------------
+// --- Rules and .btf
+// -------------------------------------------------------------------
 
 std::string node_text(const NodeHere& here) {
   const v1::DescribedNode& node = here.node();
@@ -299,11 +285,11 @@ Json hover_word(const View& view, std::size_t at) {
       }
       for (const v1::Rule& rule : look.check.report->rules) {
         if (rule.name != name) continue;
-        all = fmt::format(
-            "**{}** {}", plain(name),
-            rule.verdict == v1::Verdict::Holds      ? "HOLDS"
-            : rule.verdict == v1::Verdict::Violated ? "VIOLATED"
-                                                    : "UNDECIDED");
+        all =
+            fmt::format("**{}** {}", plain(name),
+                        rule.verdict == v1::Verdict::Holds      ? "HOLDS"
+                        : rule.verdict == v1::Verdict::Violated ? "VIOLATED"
+                                                                : "UNDECIDED");
         if (!rule.note.empty()) all += "  \n" + plain(rule.note);
         if (!rule.reason.empty()) all += "  \n" + plain(rule.reason);
       }
@@ -329,7 +315,7 @@ Json hover(const View& view, Position place) {
   const std::size_t at = view.lines->offset(place, view.encoding);
   if (view.document.kind == FileKind::Other) return Json::null();
   return view.document.kind == FileKind::Xml ? hover_xml(view, at)
-                                         : hover_word(view, at);
+                                             : hover_word(view, at);
 }
 
 }  // namespace btcheck::lsp

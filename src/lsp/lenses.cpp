@@ -55,8 +55,9 @@ struct TreeHere {
 std::vector<TreeHere> trees_here(const View& view) {
   std::vector<TreeHere> all;
   for (const Look& look : view.looks) {
-    if (look.subject.tree != view.document.path || !look.subject.rules.empty() ||
-        !look.description || look.description->nodes.empty()) {
+    if (look.subject.tree != view.document.path ||
+        !look.subject.rules.empty() || !look.description ||
+        look.description->nodes.empty()) {
       continue;
     }
     const auto at = view.now(look.description->nodes[0].where, look.described);
@@ -67,10 +68,9 @@ std::vector<TreeHere> trees_here(const View& view) {
 
 // What has to be looked at: neither notes nor questions.
 std::size_t finding_count(const v1::Report& report) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(report.findings, [](const v1::Finding& each) {
-        return each.level != v1::Level::Note;
-      }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      report.findings,
+      [](const v1::Finding& each) { return each.level != v1::Level::Note; }));
 }
 
 }  // namespace
@@ -89,8 +89,9 @@ Json runs(const View& view) {
       add(each.run, fmt::format("{}: {}", each.name, verdict_text(each)));
     }
     for (const v1::Finding& each : look.check.report->findings) {
-      add(each.run, fmt::format("{}: {}", each.code,
-                                each.message.substr(0, each.message.find('\n'))));
+      add(each.run,
+          fmt::format("{}: {}", each.code,
+                      each.message.substr(0, each.message.find('\n'))));
     }
     for (const v1::Answer& each : look.check.report->answers) {
       add(each.run, fmt::format("{}: {}", each.question, each.answer));
@@ -116,10 +117,10 @@ Json lenses(const View& view) {
       if (!run || run->name.empty() || where.file != view.document.path) return;
       const auto at = view.now(where, look.check.texts);
       if (!at || !names.insert(run->name).second) return;
-      all.push(lens(view, *at,
-                    command(fmt::format("▶ {}", what), "btcheck.showRun",
-                            Json{{"uri", view.document.uri},
-                                 {"run", run->name}})));
+      all.push(
+          lens(view, *at,
+               command(fmt::format("▶ {}", what), "btcheck.showRun",
+                       Json{{"uri", view.document.uri}, {"run", run->name}})));
     };
     for (const v1::Rule& each : look.check.report->rules) {
       add(each.where, each.run, "run");
@@ -147,16 +148,17 @@ Json hints(const View& view, const Range& range) {
     if (report.states > 0) {
       text = fmt::format("{} states", with_commas(report.states));
     }
-    text += fmt::format("{}{}", text.empty() ? "" : " · ",
-                        counted_of(finding_count(report), "finding",
-                                   "findings"));
+    text +=
+        fmt::format("{}{}", text.empty() ? "" : " · ",
+                    counted_of(finding_count(report), "finding", "findings"));
     if (!report.stopped.empty()) {
       text += fmt::format(" · stopped: {}", report.stopped);
     }
     add(tree.at, text);
   }
   for (const Look& look : view.looks) {
-    if (look.subject.rules != view.document.path || !look.is_checked()) continue;
+    if (look.subject.rules != view.document.path || !look.is_checked())
+      continue;
     for (const v1::Rule& each : look.check.report->rules) {
       const auto at = view.now(each.where, look.check.texts);
       if (!at) continue;

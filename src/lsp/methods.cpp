@@ -25,7 +25,8 @@ std::atomic<bool> is_ending = false;
 std::atomic<bool> takes_snippets = false;
 std::atomic<bool> registers_watchers = false;
 
-// --- Parameters -----------------------------------------------------------------
+// --- Parameters
+// -----------------------------------------------------------------
 
 // members of members: {"a", "b"} of {"a": {"b": 1}}
 const JsonValue* within(const JsonValue& value,
@@ -52,9 +53,8 @@ Wishes wishes_of(const JsonValue* said) {
     workbench().notify(
         "window/showMessage",
         Json{{"type", 2},
-             {"message",
-              fmt::format("btcheck: there is no profile `{}`",
-                          wishes.profile.substr(0, 80))}});
+             {"message", fmt::format("btcheck: there is no profile `{}`",
+                                     wishes.profile.substr(0, 80))}});
     wishes.profile.clear();
   }
   wishes.checks_typing = said->word("checkOnType") != "false";
@@ -68,7 +68,8 @@ Position place_in(const JsonValue& params) {
   return position_in(params, "position");
 }
 
-// --- The beginning and the end ------------------------------------------------------
+// --- The beginning and the end
+// ------------------------------------------------------
 
 Json capabilities(Encoding encoding) {
   Json triggers = Json::array();
@@ -81,10 +82,9 @@ Json capabilities(Encoding encoding) {
       {"positionEncoding", encoding == Encoding::Utf8    ? "utf-8"
                            : encoding == Encoding::Utf32 ? "utf-32"
                                                          : "utf-16"},
-      {"textDocumentSync",
-       Json{{"openClose", true},
-            {"change", 2},
-            {"save", Json{{"includeText", false}}}}},
+      {"textDocumentSync", Json{{"openClose", true},
+                                {"change", 2},
+                                {"save", Json{{"includeText", false}}}}},
       {"hoverProvider", true},
       {"completionProvider",
        Json{{"triggerCharacters", triggers}, {"resolveProvider", false}}},
@@ -133,13 +133,12 @@ std::string initialize(const JsonValue& params, Work&) {
   const JsonValue caps = params.member("capabilities") == nullptr
                              ? JsonValue{}
                              : *params.member("capabilities");
-  takes_snippets = is_true(caps, {"textDocument", "completion",
-                                  "completionItem", "snippetSupport"});
+  takes_snippets = is_true(
+      caps, {"textDocument", "completion", "completionItem", "snippetSupport"});
   registers_watchers = is_true(
       caps, {"workspace", "didChangeWatchedFiles", "dynamicRegistration"});
   Refreshes refreshes;
-  refreshes.lenses =
-      is_true(caps, {"workspace", "codeLens", "refreshSupport"});
+  refreshes.lenses = is_true(caps, {"workspace", "codeLens", "refreshSupport"});
   refreshes.hints = is_true(caps, {"workspace", "inlayHint", "refreshSupport"});
   workbench().set(wishes_of(params.member("initializationOptions")));
   workbench().begin(std::move(folders), encoding, refreshes);
@@ -151,13 +150,12 @@ std::string initialize(const JsonValue& params, Work&) {
 void initialized(const JsonValue&) {
   if (!registers_watchers) return;
   Json watchers = Json::array();
-  watchers.push(Json{
-      {"globPattern", "**/*.{xml,btproj,btf,ltl,btp,leaves,toml}"}});
+  watchers.push(
+      Json{{"globPattern", "**/*.{xml,btproj,btf,ltl,btp,leaves,toml}"}});
   Json registrations = Json::array();
-  registrations.push(
-      Json{{"id", "btcheck-files"},
-           {"method", "workspace/didChangeWatchedFiles"},
-           {"registerOptions", Json{{"watchers", watchers}}}});
+  registrations.push(Json{{"id", "btcheck-files"},
+                          {"method", "workspace/didChangeWatchedFiles"},
+                          {"registerOptions", Json{{"watchers", watchers}}}});
   workbench().demand("client/registerCapability",
                      Json{{"registrations", registrations}});
 }
@@ -167,7 +165,8 @@ std::string shutdown(const JsonValue&, Work&) {
   return "null";
 }
 
-// --- Texts ------------------------------------------------------------------------
+// --- Texts
+// ------------------------------------------------------------------------
 
 void did_open(const JsonValue& params) { workbench().open(params); }
 void did_change(const JsonValue& params) { workbench().change(params); }
@@ -184,7 +183,8 @@ void did_change_settings(const JsonValue& params) {
   workbench().set(wishes_of(within(params, {"settings", "btcheck"})));
 }
 
-// --- Questions ----------------------------------------------------------------------
+// --- Questions
+// ----------------------------------------------------------------------
 
 template <Json (*Answer)(const View&, Position)>
 std::string at_place(const JsonValue& params, Work&) {
@@ -197,8 +197,7 @@ std::string of_document(const JsonValue& params, Work&) {
 }
 
 std::string completion(const JsonValue& params, Work&) {
-  return completions(workbench().view(params), place_in(params),
-                     takes_snippets)
+  return completions(workbench().view(params), place_in(params), takes_snippets)
       .text();
 }
 
@@ -245,7 +244,8 @@ std::string formatting(const JsonValue& params, Work&) {
   return formatted(workbench().view(params)).text();
 }
 
-// --- Pages --------------------------------------------------------------------------
+// --- Pages
+// --------------------------------------------------------------------------
 
 Json page(std::string_view title, const std::string& html) {
   return {{"title", title}, {"html", html}};

@@ -64,7 +64,8 @@ void add_script_words(const XmlScan& scan, TextStretch value,
   }
 }
 
-// --- What stands at a place --------------------------------------------------------
+// --- What stands at a place
+// --------------------------------------------------------
 
 std::optional<Named> entry_of(const XmlScan& scan, std::size_t element,
                               std::string name, TextStretch at) {
@@ -99,8 +100,7 @@ std::optional<Named> named_in_value(const XmlScan& scan, std::size_t element,
   }
   if (is_script(name)) {
     const TextStretch word = word_at(text, at - value.begin);
-    return entry_of(scan, element,
-                    text.substr(word.begin, word.size()),
+    return entry_of(scan, element, text.substr(word.begin, word.size()),
                     {value.begin + word.begin, value.begin + word.end});
   }
   return std::nullopt;
@@ -126,8 +126,8 @@ std::optional<Named> named_in_xml(const View& view, std::size_t at) {
   if (tag == "BehaviorTree" || is_subtree(*scan, element)) {
     const ScannedAttribute* id = scan->attribute(element, "ID");
     if (id == nullptr) return std::nullopt;
-    return Named{NameKind::Tree, std::string(scan->text(id->value)), id->value,
-                 {}};
+    return Named{
+        NameKind::Tree, std::string(scan->text(id->value)), id->value, {}};
   }
   const bool is_in_name =
       (found.name.begin <= at && at <= found.name.end) ||
@@ -180,7 +180,8 @@ std::optional<Named> named_in_forms(const View& view, std::size_t at) {
   return Named{NameKind::Word, name, word, {}};
 }
 
-// --- All places ----------------------------------------------------------------------
+// --- All places
+// ----------------------------------------------------------------------
 
 class PlaceSearch {
  public:
@@ -189,13 +190,26 @@ class PlaceSearch {
 
   std::vector<Place> search(const Named& named) {
     switch (named.kind) {
-      case NameKind::Tree: add_tree(named.name); break;
-      case NameKind::Type: add_type(named.name); break;
-      case NameKind::Node: add_node(named); break;
-      case NameKind::Entry: add_entry(named); break;
-      case NameKind::Let: add_let(named.name); break;
-      case NameKind::Word: add_word(named.name); break;
-      case NameKind::File: break;
+      case NameKind::Tree:
+        add_tree(named.name);
+        break;
+      case NameKind::Type:
+        add_type(named.name);
+        break;
+      case NameKind::Node:
+        add_node(named);
+        break;
+      case NameKind::Entry:
+        add_entry(named);
+        break;
+      case NameKind::Let:
+        add_let(named.name);
+        break;
+      case NameKind::Word:
+        add_word(named.name);
+        break;
+      case NameKind::File:
+        break;
     }
     std::ranges::sort(found_, {}, &Place::key);
     const auto twice = std::ranges::unique(found_, {}, &Place::key);
@@ -235,33 +249,33 @@ class PlaceSearch {
   }
 
   void add_tree(std::string_view id) {
-    each_element([&](const ScannedFile& file, const XmlScan& scan,
-                     std::size_t i) {
-      const std::string_view tag = scan.name(i);
-      const bool is_tree = tag == "BehaviorTree";
-      const bool names_it = is_tree || is_subtree(scan, i);
-      const ScannedAttribute* attribute =
-          scan.attribute(i, names_it ? "ID" : "main_tree_to_execute");
-      if (attribute != nullptr && scan.text(attribute->value) == id) {
-        add(file.path, attribute->value, is_tree);
-      }
-    });
+    each_element(
+        [&](const ScannedFile& file, const XmlScan& scan, std::size_t i) {
+          const std::string_view tag = scan.name(i);
+          const bool is_tree = tag == "BehaviorTree";
+          const bool names_it = is_tree || is_subtree(scan, i);
+          const ScannedAttribute* attribute =
+              scan.attribute(i, names_it ? "ID" : "main_tree_to_execute");
+          if (attribute != nullptr && scan.text(attribute->value) == id) {
+            add(file.path, attribute->value, is_tree);
+          }
+        });
     add_rule_names(id);
   }
 
   void add_type(std::string_view id) {
-    each_element([&](const ScannedFile& file, const XmlScan& scan,
-                     std::size_t i) {
-      const ScannedAttribute* attribute = scan.attribute(i, "ID");
-      if (kind_named(scan.name(i)) && !is_subtree(scan, i)) {
-        if (attribute != nullptr && scan.text(attribute->value) == id) {
-          add(file.path, attribute->value, !is_node_word(scan, i));
-        }
-      } else if (is_node_word(scan, i) && scan.name(i) == id) {
-        add(file.path, scan[i].name);
-        if (scan[i].end_name.size() > 0) add(file.path, scan[i].end_name);
-      }
-    });
+    each_element(
+        [&](const ScannedFile& file, const XmlScan& scan, std::size_t i) {
+          const ScannedAttribute* attribute = scan.attribute(i, "ID");
+          if (kind_named(scan.name(i)) && !is_subtree(scan, i)) {
+            if (attribute != nullptr && scan.text(attribute->value) == id) {
+              add(file.path, attribute->value, !is_node_word(scan, i));
+            }
+          } else if (is_node_word(scan, i) && scan.name(i) == id) {
+            add(file.path, scan[i].name);
+            if (scan[i].end_name.size() > 0) add(file.path, scan[i].end_name);
+          }
+        });
     for (const auto& [path, text] : *view_.texts) {
       if (kind_of(path, {}) != FileKind::Leaves) continue;
       for (const TextStretch& part : form_words(text, id)) {
@@ -287,8 +301,8 @@ class PlaceSearch {
       if (element == kNone) continue;
       const ScannedAttribute* name = scan->attribute(element, "name");
       if (name == nullptr || scan->text(name->value) != named.name) continue;
-      const bool is_this = path == view_.document.path &&
-                           name->value.begin == named.at.begin;
+      const bool is_this =
+          path == view_.document.path && name->value.begin == named.at.begin;
       if (!is_here || is_this || places.size() == 1) {
         add(path, name->value, true);
       }
@@ -348,7 +362,8 @@ class PlaceSearch {
       const std::string_view first = word.substr(0, word.find('.'));
       for (const std::string_view each : {word, first}) {
         if (btf::name_key(each) != key) continue;
-        all.push_back({part.begin + skipped, part.begin + skipped + each.size()});
+        all.push_back(
+            {part.begin + skipped, part.begin + skipped + each.size()});
         break;
       }
     }
@@ -358,8 +373,9 @@ class PlaceSearch {
   void add_word(std::string_view name) {
     const auto words = form_words(view_.document.text, name);
     for (std::size_t i = 0; i < words.size(); ++i) {
-      const std::string_view before = std::string_view(
-          view_.document.text.text()).substr(0, words[i].begin);
+      const std::string_view before =
+          std::string_view(view_.document.text.text())
+              .substr(0, words[i].begin);
       const std::size_t mark = before.find_last_not_of(" \t\n\r");
       const bool is_declared =
           mark != before.npos &&
@@ -403,11 +419,11 @@ class PlaceSearch {
     each_element([&](const ScannedFile& file, const XmlScan& scan,
                      std::size_t i) {
       if (!is_node_word(scan, i)) return add_model(file, scan, i, named);
-      const bool is_in = is_anywhere || is_global ||
-                         scope_.contains(tree_id(scan, i));
-      const bool calls = is_subtree(scan, i) &&
-                         (is_anywhere ||
-                          scope_.contains(std::string(scan.value(i, "ID"))));
+      const bool is_in =
+          is_anywhere || is_global || scope_.contains(tree_id(scan, i));
+      const bool calls =
+          is_subtree(scan, i) &&
+          (is_anywhere || scope_.contains(std::string(scan.value(i, "ID"))));
       for (const ScannedAttribute& each : scan[i].attributes) {
         const std::string_view attribute = scan.text(each.name);
         if (calls && is_remap(attribute) && attribute == named.name) {
@@ -457,8 +473,8 @@ class PlaceSearch {
       std::vector<TextStretch> words;
       add_script_words(scan, attribute.value, named.name, words);
       for (const TextStretch& each : words) {
-        const std::string_view text = scan.text(
-            {each.end, std::min(attribute.value.end, each.end + 4)});
+        const std::string_view text =
+            scan.text({each.end, std::min(attribute.value.end, each.end + 4)});
         const std::size_t sign = text.find_first_not_of(' ');
         const bool is_assigned =
             sign != text.npos &&
@@ -474,8 +490,7 @@ class PlaceSearch {
     const std::string id(type_of(scan, element));
     const auto [known, is_new] = types_.try_emplace(id);
     if (is_new) known->second = type_named(view_, id);
-    const PortWord* word =
-        known->second ? known->second->port(port) : nullptr;
+    const PortWord* word = known->second ? known->second->port(port) : nullptr;
     return word != nullptr &&
            (word->direction == "output" || word->direction == "inout");
   }
@@ -491,11 +506,15 @@ class PlaceSearch {
 
 std::optional<Named> named_at(const View& view, std::size_t at) {
   switch (view.document.kind) {
-    case FileKind::Xml: return named_in_xml(view, at);
-    case FileKind::Rules: return named_in_rules(view, at);
+    case FileKind::Xml:
+      return named_in_xml(view, at);
+    case FileKind::Rules:
+      return named_in_rules(view, at);
     case FileKind::Btf:
-    case FileKind::Leaves: return named_in_forms(view, at);
-    case FileKind::Other: break;
+    case FileKind::Leaves:
+      return named_in_forms(view, at);
+    case FileKind::Other:
+      break;
   }
   return std::nullopt;
 }

@@ -18,7 +18,8 @@ namespace btcheck::lsp {
 namespace {
 
 Json location(const View& view, const std::string& path, TextStretch part) {
-  return {{"uri", view.uri(path)}, {"range", json_of(view.range_in(path, part))}};
+  return {{"uri", view.uri(path)},
+          {"range", json_of(view.range_in(path, part))}};
 }
 
 void add_node_places(const View& view, const Look& look,
@@ -33,21 +34,37 @@ void add_node_places(const View& view, const Look& look,
   }
 }
 
-// Who writes an entry.
+// Who writes an entry: as it is written here, or in another tree by another
+// name.
 Json writers(const View& view, const Named& named) {
   Json all = Json::array();
+  for (const Place& each : places_of(view, named)) {
+    if (each.is_written) all.push(location(view, each.path, each.part));
+  }
+  if (!all.is_empty()) return all;
   std::set<std::pair<std::string, std::size_t>> seen;
+  std::vector<NodeHere> users;
+  if (view.document.kind == FileKind::Xml) {
+    const auto scan = view.document.text.parsed<XmlScan>();
+    const std::size_t element = scan->tag_at(named.at.begin);
+    if (element != kNone) {
+      users = nodes_at(view, view.document.path, (*scan)[element].name.begin);
+    }
+  }
+  for (const NodeHere& here : users) {
+    const std::size_t found = entry_of(here, named.name);
+    if (found == kNone) continue;
+    add_node_places(view, *here.look,
+                    here.look->description->entries[found].writers, all, seen);
+  }
+  if (!users.empty()) return all;
   for (const Look& look : view.looks) {
     if (!look.description) continue;
     for (const v1::Entry& entry : look.description->entries) {
-      if (entry.name == named.name) {
+      if (equal_ignoring_case(entry.name, named.name)) {
         add_node_places(view, look, entry.writers, all, seen);
       }
     }
-  }
-  if (!all.is_empty()) return all;
-  for (const Place& each : places_of(view, named)) {
-    if (each.is_written) all.push(location(view, each.path, each.part));
   }
   return all;
 }
@@ -100,9 +117,9 @@ Json highlights(const View& view, Position place) {
   if (!named) return all;
   for (const Place& each : places_of(view, *named)) {
     if (each.path != view.document.path) continue;
-    all.push(Json{{"range", json_of(view.range(each.part))},
-                  {"kind", each.is_written || each.is_declared ? kWrite
-                                                               : kRead}});
+    all.push(
+        Json{{"range", json_of(view.range(each.part))},
+             {"kind", each.is_written || each.is_declared ? kWrite : kRead}});
   }
   return all;
 }
@@ -138,8 +155,8 @@ void refuse_name(const Named& named, const std::string& name) {
   if (unbroken(name) != name || name.find_first_of("\"'<>&") != name.npos) {
     refuse("a name has no quotes, no `<`, `>` and `&`, and one line");
   }
-  const bool is_word = named.kind == NameKind::Entry ||
-                       named.kind == NameKind::Let;
+  const bool is_word =
+      named.kind == NameKind::Entry || named.kind == NameKind::Let;
   if (is_word && !is_identifier(name)) {
     refuse(fmt::format("`{}` has letters, digits and `_` only, no digit first",
                        named.name));

@@ -35,7 +35,8 @@ Json symbol(const View& view, std::string_view name, std::string_view detail,
           {"selectionRange", json_of(view.range(word))}};
 }
 
-// --- XML ----------------------------------------------------------------------
+// --- XML
+// ----------------------------------------------------------------------
 
 Json xml_symbol(const View& view, const XmlScan& scan, std::size_t i) {
   const ScannedElement& element = scan[i];
@@ -86,7 +87,8 @@ Json xml_symbols(const View& view) {
   return all;
 }
 
-// --- .btf and contracts ---------------------------------------------------------
+// --- .btf and contracts
+// ---------------------------------------------------------
 
 struct FormsOf {
   explicit FormsOf(const FileText& text)
@@ -138,10 +140,10 @@ std::optional<Json> form_symbol(const View& view, const FormsOf& of,
   const std::string_view word = head->text;
   std::string_view name = name_of(of.forms(), form);
   const bool is_definition = btf::name_key(word).starts_with("def");
-  const int kind = word == "BehaviorTree"    ? symbols_of::kClass
-                   : word == "defsv"         ? symbols_of::kVariable
-                   : is_definition           ? symbols_of::kFunction
-                                             : symbols_of::kMethod;
+  const int kind = word == "BehaviorTree" ? symbols_of::kClass
+                   : word == "defsv"      ? symbols_of::kVariable
+                   : is_definition        ? symbols_of::kFunction
+                                          : symbols_of::kMethod;
   Json json = symbol(view, name.empty() ? word : name,
                      name.empty() ? std::string_view() : word, kind,
                      of.whole(form), of.stretch(head->span));
@@ -164,7 +166,8 @@ Json form_symbols(const View& view) {
   return all;
 }
 
-// --- Rules ----------------------------------------------------------------------
+// --- Rules
+// ----------------------------------------------------------------------
 
 // An item of a file of rules: from its word to the next.
 struct RuleItem {
@@ -183,13 +186,16 @@ std::vector<RuleItem> rule_items(const FileText& text) {
   for (std::size_t i = 0; i + 1 < list.tokens.size(); ++i) {
     const Token& token = list.tokens[i];
     if (!items.empty()) items.back().whole.end = token.end;
-    if (!token.is_first_on_line || token.kind != TokenKind::Identifier) continue;
+    if (!token.is_first_on_line || token.kind != TokenKind::Identifier)
+      continue;
     const auto word = std::ranges::find_if(kWords, [&](std::string_view each) {
       return equal_ignoring_case(each, token.text);
     });
     if (word == kWords.end()) continue;
-    if (!items.empty() && i > 0) items.back().whole.end = list.tokens[i - 1].end;
-    RuleItem item{*word, {}, {token.begin, token.end}, {token.begin, token.end}};
+    if (!items.empty() && i > 0)
+      items.back().whole.end = list.tokens[i - 1].end;
+    RuleItem item{
+        *word, {}, {token.begin, token.end}, {token.begin, token.end}};
     const Token& next = list.tokens[i + 1];
     if (next.is_name()) {
       item.name = next.text;
@@ -212,11 +218,13 @@ Json rule_symbols(const View& view) {
   return all;
 }
 
-// --- Stretches ------------------------------------------------------------------
+// --- Stretches
+// ------------------------------------------------------------------
 
 void add_folding(const View& view, TextStretch part, std::string_view kind,
-                 Json& all) {
-  const Range range = view.range(part);
+                 Json& all, bool keeps_last = false) {
+  Range range = view.range(part);
+  if (keeps_last && range.end.line > 0) --range.end.line;
   if (range.begin.line >= range.end.line) return;
   Json json{{"startLine", range.begin.line}, {"endLine", range.end.line}};
   if (!kind.empty()) json.add("kind", kind);
@@ -235,8 +243,8 @@ void add_comment_lines(const View& view, std::string_view marks, Json& all) {
     if (is_comment && first == kNone) first = i;
     if (is_comment || first == kNone) continue;
     if (i - first > 1) {
-      all.push(Json{{"startLine", first}, {"endLine", i - 1},
-                    {"kind", "comment"}});
+      all.push(
+          Json{{"startLine", first}, {"endLine", i - 1}, {"kind", "comment"}});
     }
     first = kNone;
   }
@@ -258,11 +266,10 @@ std::vector<TextStretch> stretches_around(const View& view, std::size_t at) {
       if (element.end_tag.size() > 0) {
         add({element.start_tag.end, element.end_tag.begin});
       }
-      add(element.start_tag);
+      if (at < element.start_tag.end) add(element.start_tag);
       add(element.name);
       for (const ScannedAttribute& each : element.attributes) {
-        add({each.name.begin,
-             std::min(text.size(), each.whole().end)});
+        add({each.name.begin, std::min(text.size(), each.whole().end)});
         add(each.name);
         add(each.value);
       }
@@ -283,7 +290,8 @@ std::vector<TextStretch> stretches_around(const View& view, std::size_t at) {
 Json symbols(const View& view) {
   if (view.document.kind == FileKind::Xml) return xml_symbols(view);
   if (view.document.kind == FileKind::Rules) return rule_symbols(view);
-  return view.document.kind == FileKind::Other ? Json::array() : form_symbols(view);
+  return view.document.kind == FileKind::Other ? Json::array()
+                                               : form_symbols(view);
 }
 
 Json foldings(const View& view) {
@@ -292,12 +300,11 @@ Json foldings(const View& view) {
     const auto scan = view.document.text.parsed<XmlScan>();
     for (const ScannedElement& element : scan->elements()) {
       // The end tag stays.
+      const bool has_end = element.end_tag.size() > 0;
       add_folding(view,
                   {element.start_tag.begin,
-                   element.end_tag.size() > 0 && element.end_tag.begin > 0
-                       ? element.end_tag.begin - 1
-                       : element.end},
-                  {}, all);
+                   has_end ? element.end_tag.begin : element.end},
+                  {}, all, has_end);
     }
     for (const TextStretch& comment : scan->comments()) {
       add_folding(view, comment, "comment", all);

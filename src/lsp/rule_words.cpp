@@ -41,19 +41,15 @@ constexpr auto kRuleWords = std::to_array<RuleHelp>({
     {"in", Of::Body,
      "`in no tick: P`, `in some tick: P`: P where a tick ends; `x in 0..5`"},
     {"live", Of::Body, "`live P`: from every state P can still be reached"},
-    {"deadlockfree", Of::Body,
-     "`deadlockfree`: no reachable state is dead"},
+    {"deadlockfree", Of::Body, "`deadlockfree`: no reachable state is dead"},
     {"ltl", Of::Body, "`ltl F`: F holds on every run"},
     {"after", Of::Body, "`after Q`: from each Q on"},
     {"then", Of::Join, "`whenever F then G`"},
     {"leadsto", Of::Join,
      "`F leadsto G`: each time F holds, G holds then or later"},
-    {"precedes", Of::Join,
-     "`F precedes G`: there is no G before the first F"},
-    {"requires", Of::Join,
-     "`G requires F`: there is no G before the first F"},
-    {"forbids", Of::Join,
-     "`F forbids G`: after an F there is no G any more"},
+    {"precedes", Of::Join, "`F precedes G`: there is no G before the first F"},
+    {"requires", Of::Join, "`G requires F`: there is no G before the first F"},
+    {"forbids", Of::Join, "`F forbids G`: after an F there is no G any more"},
     {"causes", Of::Join, "`F causes G`"},
     {"within", Of::Join,
      "`within 2 ticks`, `within [1,3] ticks`: no later, and no earlier"},
@@ -80,8 +76,7 @@ constexpr auto kRuleWords = std::to_array<RuleHelp>({
     {"dead", Of::Other,
      "no step but an idle one is possible, and the root is unfinished"},
     {"stuck", Of::Other, "nothing can go on, and the root is unfinished"},
-    {"ticked", Of::Event,
-     "`x.ticked`: it has been called and not yet decided"},
+    {"ticked", Of::Event, "`x.ticked`: it has been called and not yet decided"},
     {"success", Of::Event, "`x.success`: it answers success"},
     {"failure", Of::Event, "`x.failure`: it answers failure"},
     {"running", Of::Event, "`x.running`: it answers running"},
@@ -184,10 +179,10 @@ RuleWordHere rule_word_at(const FileText& text, std::size_t at) {
       line->kind == TokenKind::Number && joins_paths(word, *mark)) {
     last = number + 2;
   }
-  here.node = {part_of(tokens.list[first]).begin,
-               std::max(part_of(word).end, last == number
-                                               ? part_of(word).end
-                                               : tokens.list[last].end)};
+  here.node = {
+      part_of(tokens.list[first]).begin,
+      std::max(part_of(word).end,
+               last == number ? part_of(word).end : tokens.list[last].end)};
   return here;
 }
 
@@ -198,8 +193,7 @@ std::vector<TextStretch> rule_names(const FileText& text,
   for (std::size_t i = 0; i + 1 < tokens.list.size(); ++i) {
     const Token& token = tokens.list[i];
     if (!token.is_name() || !equal_ignoring_case(token.text, name)) continue;
-    const bool is_event =
-        i > 0 && tokens.list[i - 1].kind == TokenKind::Dot;
+    const bool is_event = i > 0 && tokens.list[i - 1].kind == TokenKind::Dot;
     if (!is_event) all.push_back(part_of(token));
   }
   return all;

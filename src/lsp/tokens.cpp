@@ -89,16 +89,15 @@ void add_forms(const View& view, std::vector<Coloured>& all) {
     const auto number = [](int value) {
       return static_cast<std::size_t>(std::max(0, value));
     };
-    const TextStretch part = view.lines->stretch(number(token.span.line),
-                                                 number(token.span.column),
-                                                 number(token.span.length));
+    const TextStretch part =
+        view.lines->stretch(number(token.span.line), number(token.span.column),
+                            number(token.span.length));
     if (token.kind == btf::FormKind::Keyword) {
       all.push_back({part, Colour::Property});
     } else if (token.kind == btf::FormKind::Word) {
-      all.push_back({part, is_head ? Colour::Keyword
-                           : btf::looks_numeric(token.text)
-                               ? Colour::Number
-                           : token.text.starts_with('$') ? Colour::Variable
+      all.push_back({part, is_head                          ? Colour::Keyword
+                           : btf::looks_numeric(token.text) ? Colour::Number
+                           : token.text.starts_with('$')    ? Colour::Variable
                                                          : Colour::Function});
     }
     is_head = token.kind == btf::FormKind::List;
@@ -133,10 +132,9 @@ Json tokens(const View& view) {
         range.begin.character == range.end.character) {
       continue;
     }
-    const bool is_behind =
-        range.begin.line > last.line ||
-        (range.begin.line == last.line &&
-         range.begin.character >= last.character);
+    const bool is_behind = range.begin.line > last.line ||
+                           (range.begin.line == last.line &&
+                            range.begin.character >= last.character);
     if (!is_behind) continue;
     const std::size_t lines = range.begin.line - last.line;
     if (lines > 0) before = 0;

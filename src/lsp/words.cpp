@@ -47,7 +47,8 @@ TypeWord word_of(const NodeTypeRow& row, Profile profile) {
     word.since = fmt::format("BehaviorTree.CPP {}", release_text(first));
   }
   for (const PortRow& port : row.ports) {
-    if (port.in.has(engine_release(profile))) word.ports.push_back(word_of(port));
+    if (port.in.has(engine_release(profile)))
+      word.ports.push_back(word_of(port));
   }
   return word;
 }
@@ -136,7 +137,8 @@ std::vector<TypeWord> all_types(const View& view) {
   for (const ScannedFile& file : files) {
     const XmlScan& scan = *file.scan;
     for (std::size_t i = 0; i < scan.elements().size(); ++i) {
-      const bool is_model = is_model_list(scan, i) && kind_named(scan.name(i)) &&
+      const bool is_model = is_model_list(scan, i) &&
+                            kind_named(scan.name(i)) &&
                             scan.name(i) != "SubTree";
       if (is_model) add(word_of(scan, i));
     }
@@ -156,8 +158,8 @@ std::vector<TypeWord> all_types(const View& view) {
       TypeWord word;
       word.id = id;
       const auto kind = kind_named(scan.name(i));
-      word.kind = kind                         ? kind_name(*kind)
-                  : scan[i].children.empty()   ? "Action"
+      word.kind = kind                           ? kind_name(*kind)
+                  : scan[i].children.empty()     ? "Action"
                   : scan[i].children.size() == 1 ? "Decorator"
                                                  : "Control";
       for (const ScannedAttribute& each : scan[i].attributes) {
@@ -182,7 +184,8 @@ std::optional<TypeWord> type_named(const View& view, std::string_view id) {
   return std::nullopt;
 }
 
-// --- Nodes --------------------------------------------------------------------
+// --- Nodes
+// --------------------------------------------------------------------
 
 const Look* described_look(const View& view) {
   const auto found = std::ranges::find_if(
@@ -244,7 +247,34 @@ std::vector<NodeHere> nodes_named(const View& view, std::string_view word) {
   return all;
 }
 
-// --- Words ----------------------------------------------------------------------
+std::size_t entry_of(const NodeHere& here, std::string_view name) {
+  const v1::Description& tree = *here.look->description;
+  std::string known(name);
+  const auto find = [&](const std::vector<std::size_t>& numbers) {
+    const auto found = std::ranges::find_if(numbers, [&](std::size_t each) {
+      return tree.entries[each].name == known;
+    });
+    return found == numbers.end() ? kNone : *found;
+  };
+  for (std::size_t at = here.number; tree.nodes[at].parent != at;) {
+    at = tree.nodes[at].parent;
+    if (tree.nodes[at].kind != "SubTree") continue;
+    const auto& ports = tree.nodes[at].ports;
+    const auto port = std::ranges::find(ports, known, &v1::Port::name);
+    if (port != ports.end() && !port->entry.empty()) known = port->entry;
+  }
+  for (const auto* list : {&here.node().reads, &here.node().writes}) {
+    const std::size_t found = find(*list);
+    if (found != kNone) return found;
+  }
+  const auto found = std::ranges::find(tree.entries, known, &v1::Entry::name);
+  return found == tree.entries.end()
+             ? kNone
+             : static_cast<std::size_t>(found - tree.entries.begin());
+}
+
+// --- Words
+// ----------------------------------------------------------------------
 
 bool is_word_letter(char c) {
   return is_letter(c) || is_digit(c) || c == '_' ||

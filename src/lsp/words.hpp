@@ -58,7 +58,7 @@ bool is_subtree(const XmlScan& scan, std::size_t element);
 // A node of a look.
 struct NodeHere {
   const Look* look = nullptr;
-  std::size_t number = 0;  // in its description
+  std::size_t number = 0;            // in its description
   const v1::Node* proven = nullptr;  // null where nothing is known
 
   const v1::DescribedNode& node() const {
@@ -71,6 +71,10 @@ std::vector<NodeHere> nodes_at(const View& view, const std::string& path,
                                std::size_t begin);
 // Those that a word of a rule names: a label, a unique name, a path.
 std::vector<NodeHere> nodes_named(const View& view, std::string_view word);
+
+// The entry that a node of a tree calls so, a number in its description: by its
+// name in the trees above it where a SubTree has remapped it. kNone for none.
+std::size_t entry_of(const NodeHere& here, std::string_view name);
 
 // The description of the first look that has one, or nullptr.
 const Look* described_look(const View& view);

@@ -129,7 +129,8 @@ const FileText* View::text(const std::string& path) const {
 
 Range View::range_in(const std::string& path, TextStretch part) const {
   const FileText* found = text(path);
-  return found == nullptr ? Range{} : found->parsed<Lines>()->range(part, encoding);
+  return found == nullptr ? Range{}
+                          : found->parsed<Lines>()->range(part, encoding);
 }
 
 std::optional<TextStretch> View::now(const v1::Position& place,
@@ -177,7 +178,8 @@ void Workbench::change_folders(const JsonValue& event) {
   const auto each = [&](std::string_view which, auto act) {
     const JsonValue* list = event.member(which);
     if (list == nullptr) return;
-    for (const JsonValue& folder : list->items) act(path_of(folder.word("uri")));
+    for (const JsonValue& folder : list->items)
+      act(path_of(folder.word("uri")));
   };
   each("removed", [&](const std::string& path) { std::erase(folders_, path); });
   each("added", [&](std::string path) { folders_.push_back(std::move(path)); });
@@ -211,6 +213,7 @@ void Workbench::save(const JsonValue& params) {
 void Workbench::close(const JsonValue& params) {
   const std::scoped_lock lock(mutex_);
   const std::string path = documents_.close(params);
+  untold_.erase(path);
   const auto file = read_file(path);
   const bool concerns_others = file.value
                                    ? workspace_.put(path, file.value->text)
@@ -227,7 +230,8 @@ void Workbench::change_files(const JsonValue& params) {
     const std::string path = path_of(change.word("uri"));
     if (documents_.find(path) != nullptr) continue;
     const auto file = read_file(path);
-    if (file.value && kind_of(path, file.value->text.text()) != FileKind::Other) {
+    if (file.value &&
+        kind_of(path, file.value->text.text()) != FileKind::Other) {
       workspace_.put(path, file.value->text);
     } else {
       workspace_.remove(path);
@@ -248,6 +252,7 @@ void Workbench::edited(const std::string& path, bool concerns_others) {
   ++edits_;
   edited_at_ = Clock::now();
   texts_.reset();
+  if (documents_.find(path) != nullptr) untold_.insert(path);
   for (auto& [subject, look] : looks_) {
     if (concerns_others || concerns(look, path)) look.needed = edits_;
   }
@@ -263,6 +268,20 @@ void Workbench::edited(const std::string& path, bool concerns_others) {
   wake();
 }
 
+// Whether all that reading tells of an edited document is known.
+bool Workbench::is_news(const std::string& path) const {
+  const auto own = subjects_.find(path);
+  return own == subjects_.end() ||
+         std::ranges::all_of(own->second, [&](const Subject& each) {
+           return looks_.at(each).is_linted();
+         });
+}
+
+bool Workbench::has_news() const {
+  return std::ranges::any_of(
+      untold_, [&](const std::string& path) { return is_news(path); });
+}
+
 void Workbench::find_subjects() {
   subjects_.clear();
   std::set<Subject> wanted;
@@ -274,9 +293,8 @@ void Workbench::find_subjects() {
       if (wanted.insert(each).second) order.push_back(each);
     }
   }
-  std::erase_if(looks_, [&](const auto& known) {
-    return !wanted.contains(known.first);
-  });
+  std::erase_if(
+      looks_, [&](const auto& known) { return !wanted.contains(known.first); });
   for (const Subject& subject : order) {
     const auto [look, is_new] = looks_.try_emplace(subject);
     if (!is_new) continue;
@@ -309,8 +327,8 @@ std::optional<Subject> Workbench::next_to_lint() const {
 std::optional<Subject> Workbench::next_to_check() const {
   const auto found = std::ranges::find_if(order_, [&](const Subject& each) {
     const Look& look = looks_.at(each);
-    const bool is_wanted = wishes_.checks_typing || forced_.contains(each) ||
-                           !look.check.report;
+    const bool is_wanted =
+        wishes_.checks_typing || forced_.contains(each) || !look.check.report;
     return is_wanted && look.is_linted() &&
            (!look.is_checked() || !look.check.is_whole);
   });
@@ -350,7 +368,8 @@ Options Workbench::options_for(const Subject& subject) const {
   return options;
 }
 
-// --- Threads ------------------------------------------------------------------
+// --- Threads
+// ------------------------------------------------------------------
 
 // Files that have changed and no editor has told it.
 void Workbench::reread_files() {
@@ -407,6 +426,12 @@ void Workbench::lint_loop() {
       continue;
     }
     const auto subject = next_to_lint();
+    if (!subject && has_news()) {  // of what no tree has to do with
+      lock.unlock();
+      publish();
+      lock.lock();
+      continue;
+    }
     if (!subject) {
       const bool is_quiet =
           changed_.wait_for(lock, kStampInterval) == std::cv_status::timeout;
@@ -434,32 +459,36 @@ void Workbench::lint(const Subject& subject, const Texts& texts,
   lock.unlock();
   request.tries_repairs = false;
   ServedSources sources(options, {}, *texts);
-  auto report =
+  const auto report =
       report_of(subject, [&] { return v1::linted(request, sources, nullptr); });
-  std::shared_ptr<const v1::Description> description;
-  if (report->outcome != v1::Outcome::BadInput) {
-    try {
-      ServedSources again(options, {}, *texts);
-      description = std::make_shared<v1::Description>(
-          v1::described(request, again, nullptr));
-    } catch (const std::exception&) {
-      // The report has said why.
-    }
-  }
   lock.lock();
   const auto found = looks_.find(subject);
   if (found == looks_.end()) return;
-  found->second.lint = {std::move(report), texts, edit, true};
-  if (description && description->outcome == v1::Outcome::Met) {
-    found->second.description = std::move(description);
-    found->second.described = texts;
-  }
-  // Those that the same edit concerns are told together.
-  const auto next = next_to_lint();
-  const bool is_last = !next || next->tree != subject.tree;
+  found->second.lint = {report, texts, edit, true};
   changed_.notify_all();
+  const bool is_due = has_news();
   lock.unlock();
-  if (is_last) publish(subject.tree);
+  if (is_due) publish();
+  if (report->outcome != v1::Outcome::BadInput) {
+    describe(subject, request, options, texts);
+  }
+}
+
+void Workbench::describe(const Subject& subject, const v1::Request& request,
+                         const Options& options, const Texts& texts) {
+  ServedSources sources(options, {}, *texts);
+  std::shared_ptr<const v1::Description> made;
+  try {
+    made = std::make_shared<v1::Description>(
+        v1::described(request, sources, nullptr));
+  } catch (const std::exception&) {
+    return;  // the report has said why
+  }
+  const std::scoped_lock lock(mutex_);
+  const auto found = looks_.find(subject);
+  if (found == looks_.end() || made->outcome != v1::Outcome::Met) return;
+  found->second.description = std::move(made);
+  found->second.described = texts;
 }
 
 void Workbench::check_loop() {
@@ -530,7 +559,8 @@ void Workbench::sweep_loop() {
   }
 }
 
-// --- Telling ------------------------------------------------------------------
+// --- Telling
+// ------------------------------------------------------------------
 
 void Workbench::notify(std::string_view method, const Json& params) {
   wire_.send(notification_text(method, params));
@@ -545,7 +575,7 @@ void Workbench::demand(std::string_view method,
   wire_.send(message.text());
 }
 
-void Workbench::publish(const std::string& path) {
+void Workbench::publish() {
   const std::scoped_lock telling(telling_);
   std::map<std::string, std::string> all;  // by path, as JSON
   std::vector<std::pair<std::string, std::string>> messages;
@@ -554,7 +584,11 @@ void Workbench::publish(const std::string& path) {
     const Texts texts = texts_now();
     DiagnosticList list(*texts, encoding_);
     for (const auto& [of, document] : documents_.all()) {
-      if (document.kind != FileKind::Other) list.add_file(of, document.kind);
+      if (document.kind == FileKind::Other) {
+        untold_.erase(of);
+      } else {
+        list.add_file(of, document.kind);
+      }
     }
     for (const Subject& subject : order_) {
       const Look& look = looks_.at(subject);
@@ -573,7 +607,9 @@ void Workbench::publish(const std::string& path) {
       const auto before = told_.find(of);
       const bool is_same =
           before == told_.end() ? false : before->second == diagnostics;
-      if (is_same && of != path) continue;
+      const bool is_awaited = untold_.contains(of) && is_news(of);
+      if (is_same && !is_awaited) continue;
+      if (is_awaited) untold_.erase(of);
       const Document* open = documents_.find(of);
       const std::string version =
           open == nullptr ? std::string()

@@ -33,7 +33,7 @@ namespace btcheck::lsp {
 
 // What the user of the editor has set.
 struct Wishes {
-  std::string profile;      // "": as files and settings say
+  std::string profile;        // "": as files and settings say
   bool checks_typing = true;  // else what is saved, and what is asked for
   bool tries_repairs = true;
   double seconds = 20;  // of one check; 0: no limit
@@ -112,7 +112,8 @@ class Workbench {
   // Files were made, changed or removed beside the editor.
   void change_files(const JsonValue& params);
 
-  // --- What it asks -----------------------------------------------------------
+  // --- What it asks
+  // -----------------------------------------------------------
 
   Encoding encoding() const { return encoding_; }
   // Throws RpcError where `textDocument` is not open.
@@ -144,17 +145,17 @@ class Workbench {
   std::optional<Subject> next_to_check() const;
 
   void lint(const Subject& subject, const Texts& texts, std::uint64_t edit);
-  void check(const Subject& subject, const Texts& texts, std::uint64_t edit,
-             CheckMonitor& monitor);
+  void describe(const Subject& subject, const v1::Request& request,
+                const Options& options, const Texts& texts);
   v1::Request request_of(const Subject& subject) const;
   Options options_for(const Subject& subject) const;
   // What the check of a subject has come to, for those who show runs.
   void tell_check(const Subject& subject);
-  // Sends what there is to say of all files; of `path` even where it is what
-  // was said before.
-  void publish(const std::string& path = {});
-  std::string diagnostics_of(const std::string& path, bool with_stale,
-                             Texts& texts) const;
+  bool is_news(const std::string& path) const;
+  bool has_news() const;
+  // Sends what there is to say of all files where it is not what was said
+  // before; of an edited one in any case, once.
+  void publish();
   void reread_files();
 
   Wire& wire_;
@@ -178,14 +179,15 @@ class Workbench {
   std::map<std::string, std::vector<Subject>> subjects_;  // of open documents
   std::uint64_t edits_ = 0;
   Clock::time_point edited_at_;
-  std::uint64_t swept_ = 0;    // the edit up to which stale words are gone
-  std::set<Subject> forced_;   // to be checked although nobody types
-  Texts texts_;                // null where they have to be made anew
+  std::set<std::string> untold_;  // documents, since their last edit
+  std::uint64_t swept_ = 0;       // the edit up to which stale words are gone
+  std::set<Subject> forced_;      // to be checked although nobody types
+  Texts texts_;                   // null where they have to be made anew
   std::map<std::string, std::pair<std::int64_t, std::int64_t>> stamps_;
   std::shared_ptr<CheckMonitor> checking_;
   Subject checked_;
 
-  std::mutex telling_;  // taken before mutex_
+  std::mutex telling_;                       // taken before mutex_
   std::map<std::string, std::string> told_;  // by path, as it was sent last
 
   std::vector<std::jthread> threads_;

@@ -24,15 +24,25 @@ bool is_of_others(const std::string& name) {
          name == "install" || name == "log";
 }
 
-// What other files may have to do with.
-bool is_alike(const std::optional<XmlOutline>& one,
-              const std::optional<XmlOutline>& other) {
+std::string_view models_in(std::string_view text) {
+  const std::size_t begin = text.find("<TreeNodesModel");
+  if (begin == text.npos) return {};
+  const std::size_t end = text.rfind("</TreeNodesModel");
+  return text.substr(begin, end == text.npos ? end : end - begin);
+}
+
+// Whether all is equal that other files may have to do with.
+bool is_alike(const std::optional<XmlOutline>& one, std::string_view one_text,
+              const std::optional<XmlOutline>& other,
+              std::string_view other_text) {
   if (!one || !other) return one.has_value() == other.has_value();
   const auto all = [](const XmlOutline& of) {
     return std::tie(of.trees, of.uses, of.includes, of.main, of.has_models,
                     of.has_node_models);
   };
-  return all(*one) == all(*other) && !other->has_node_models;
+  return all(*one) == all(*other) &&
+         (!other->has_node_models ||
+          models_in(one_text) == models_in(other_text));
 }
 
 }  // namespace
@@ -74,6 +84,7 @@ bool Workspace::put(const std::string& path, const FileText& text) {
     files_[path] = text;
     return is_new;
   }
+  const FileText old = known == files_.end() ? FileText() : known->second;
   const auto before =
       known == files_.end() ? std::nullopt : outline_of(known->second);
   const auto after = outline_of(text);
@@ -82,7 +93,7 @@ bool Workspace::put(const std::string& path, const FileText& text) {
   } else if (known != files_.end()) {
     files_.erase(known);
   }
-  if (is_alike(before, after) && !after->has_node_models) return false;
+  if (is_alike(before, old.text(), after, text.text())) return false;
   project_.reset();
   return true;
 }

@@ -152,9 +152,8 @@ std::optional<v1::NamedText> ServedSources::settings(const std::string& tree) {
   const auto buffer = buffers_.find(buffer_name(name));
   auto found = buffer != buffers_.end()
                    ? Result<InputFile>{InputFile{name, buffer->second}, {}}
-               : settings_.empty()
-                   ? text_of_settings(options_, name)
-                   : read_file_in(options_.roots, name);
+               : settings_.empty() ? text_of_settings(options_, name)
+                                   : read_file_in(options_.roots, name);
   if (!found.value) {
     throw std::invalid_argument(found.diagnostics.front().message);
   }

@@ -42,11 +42,10 @@ ExitCode serve(const Options& options, const Protocol& protocol,
 
 }  // namespace
 
-ExitCode serve_messages(
-    const Options& options, const Protocol& protocol, Framing framing,
-    unsigned threads,
-    const std::function<void(Wire&, const Service&)>& begin,
-    const std::function<void()>& end) {
+ExitCode serve_messages(const Options& options, const Protocol& protocol,
+                        Framing framing, unsigned threads,
+                        const std::function<void(Wire&, const Service&)>& begin,
+                        const std::function<void()>& end) {
   if (::isatty(STDIN_FILENO) != 0 && !options.is_quiet) {
     tell("waiting for messages of a program; Ctrl-D ends it\n");
   }

@@ -18,10 +18,9 @@ ExitCode run_mcp(const Options& options);
 
 // Answers messages on standard input and output until they end; `begin` is
 // called before the first, `end` behind the last.
-ExitCode serve_messages(
-    const Options& options, const Protocol& protocol, Framing framing,
-    unsigned threads,
-    const std::function<void(Wire&, const Service&)>& begin,
-    const std::function<void()>& end = {});
+ExitCode serve_messages(const Options& options, const Protocol& protocol,
+                        Framing framing, unsigned threads,
+                        const std::function<void(Wire&, const Service&)>& begin,
+                        const std::function<void()>& end = {});
 
 }  // namespace btcheck

@@ -122,7 +122,7 @@ void Server::begin(RpcMessage message) {
   }
   auto work =
       std::make_shared<Work>(wire_, message.id, protocol_.progress_text);
-  Job job{std::move(message), &*method, nullptr, std::move(work)};
+  Job job{std::move(message), &*method, nullptr, std::move(work), 0};
   if (!method->is_long) {
     wire_.send(answer_to(job));
     return;
@@ -136,8 +136,7 @@ void Server::begin(RpcMessage message) {
     throw RpcError(rpc::kInvalidRequest,
                    "a request with this `id` is not answered yet");
   }
-  waiting_.push_back(std::move(job));
-  changed_.notify_all();
+  put(std::move(job));
 }
 
 // One that nobody knows is passed over. However many wait, none is lost: what
@@ -147,7 +146,12 @@ void Server::take_notice(RpcMessage message) {
       std::ranges::find(protocol_.notices, message.method, &NoticeRow::name);
   if (notice == protocol_.notices.end()) return;
   const std::scoped_lock lock(mutex_);
-  waiting_.push_back({std::move(message), nullptr, &*notice, nullptr});
+  put({std::move(message), nullptr, &*notice, nullptr, 0});
+}
+
+void Server::put(Job job) {
+  job.number = ++count_;
+  waiting_.push_back(std::move(job));
   changed_.notify_all();
 }
 
@@ -193,21 +197,28 @@ std::string Server::answer_to(const Job& job) const {
 // The first that waits for a thread of this kind.
 std::deque<Server::Job>::iterator Server::next_job(bool is_aside) {
   if (protocol_.notices.empty()) return waiting_.begin();
-  return std::ranges::find_if(waiting_, [&](const Job& job) {
-    return (job.method != nullptr && job.method->is_aside) == is_aside;
-  });
+  const auto is_aside_job = [](const Job& job) {
+    return job.method != nullptr && job.method->is_aside;
+  };
+  const auto next = std::ranges::find_if(
+      waiting_, [&](const Job& job) { return is_aside_job(job) == is_aside; });
+  if (!is_aside || next == waiting_.end()) return next;
+  // What came before it has been done.
+  const bool is_early = in_turn_ < next->number ||
+                        !std::all_of(waiting_.begin(), next, is_aside_job);
+  return is_early ? waiting_.end() : next;
 }
 
 void Server::work(bool is_aside) {
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [&] {
-      return is_over_ || next_job(is_aside) != waiting_.end();
-    });
+    changed_.wait(
+        lock, [&] { return is_over_ || next_job(is_aside) != waiting_.end(); });
     const auto next = next_job(is_aside);
     if (next == waiting_.end()) return;
     const Job job = std::move(*next);
     waiting_.erase(next);
+    if (!is_aside) in_turn_ = job.number;
     lock.unlock();
     const std::string text = answer_to(job);
     lock.lock();
@@ -216,6 +227,7 @@ void Server::work(bool is_aside) {
     lock.unlock();
     if (!text.empty()) wire_.send(text);
     lock.lock();
+    if (!is_aside) in_turn_ = UINT64_MAX;
     changed_.notify_all();
   }
 }

@@ -101,12 +101,14 @@ class Server {
     const MethodRow* method = nullptr;  // null of a notice
     const NoticeRow* notice = nullptr;
     std::shared_ptr<Work> work;
+    std::uint64_t number = 0;  // in the order in which they came
   };
 
   // False at the end.
   bool take(const Wire::Received& received);
   void begin(RpcMessage message);
   void take_notice(RpcMessage message);
+  void put(Job job);
   void cancel(const JsonValue& params);
   std::string answer_to(const Job& job) const;
   void work(bool is_aside);
@@ -120,6 +122,8 @@ class Server {
   std::condition_variable changed_;
   std::deque<Job> waiting_;
   std::map<std::string, std::shared_ptr<Work>> at_work_;  // by id
+  std::uint64_t count_ = 0;
+  std::uint64_t in_turn_ = UINT64_MAX;  // that is worked on in its turn, if any
   bool is_over_ = false;
 };
 

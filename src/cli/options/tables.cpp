@@ -196,7 +196,8 @@ constexpr CommandRow kCommands[] = {
      .description =
          "Answers an editor on standard input and output, by the Language "
          "Server Protocol: what is wrong as you type, what a search finds and "
-         "what repairs it, hover, completion, definitions, names changed in all "
+         "what repairs it, hover, completion, definitions, names changed in "
+         "all "
          "files. docs/editors.md says how editors start it."},
     {.command = Completions,
      .word = "completions",
@@ -224,8 +225,7 @@ constexpr CommandSet kReadsBtf = {Check,    Batch, Lint,    Space, Export,
                                   Simulate, Init,  Conform, Run};
 constexpr CommandSet kHasSettings = {
     Check,   Batch, Lint,   Space,           Export, Simulate, Init,
-    Conform, Run,   Leaves, Command::Answer, Serve,  Mcp,
-    Lsp};
+    Conform, Run,   Leaves, Command::Answer, Serve,  Mcp,      Lsp};
 constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space,
                                   Demo,  Init,  Command::Answer};
@@ -233,12 +233,12 @@ constexpr CommandSet kCountsStates = {
     Check, Batch, Space, Demo, Init, Conform, Command::Answer, Serve, Mcp, Lsp};
 constexpr CommandSet kLimited = {
     Check, Batch, Lint,    Space,  Export,          Trace, Demo, Simulate,
-    Init,  Run,   Conform, Leaves, Command::Answer, Serve, Mcp, Lsp};
+    Init,  Run,   Conform, Leaves, Command::Answer, Serve, Mcp,  Lsp};
 constexpr CommandSet kEvery = {
     Check,    Batch,       Lint, Space,  Export,          Trace,
     Simulate, Explain,     Demo, Init,   Conform,         Run,
     Monitor,  Completions, Man,  Leaves, Command::Answer, Serve,
-    Mcp, Lsp};
+    Mcp,      Lsp};
 
 constexpr std::string_view kProfileNames =
     "paper btcpp-3.5.1 btcpp-3.5 btcpp-3.6 btcpp-3.7 btcpp-3.8 btcpp-4.0 "

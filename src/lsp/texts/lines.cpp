@@ -21,17 +21,17 @@ std::size_t units(const CodePoint& point, Encoding encoding) {
 Lines::Lines(const std::string& text) : text_(text) {
   starts_.push_back(0);
   for (std::size_t at = 0; at < text.size(); ++at) {
-    const bool is_end = text[at] == '\n' ||
-                        (text[at] == '\r' &&
-                         (at + 1 == text.size() || text[at + 1] != '\n'));
+    const bool is_end =
+        text[at] == '\n' ||
+        (text[at] == '\r' && (at + 1 == text.size() || text[at + 1] != '\n'));
     if (is_end) starts_.push_back(at + 1);
   }
 }
 
 TextStretch Lines::whole_line(std::size_t number) const {
   if (number >= starts_.size()) return {text_.size(), text_.size()};
-  return {starts_[number], number + 1 < starts_.size() ? starts_[number + 1]
-                                                       : text_.size()};
+  return {starts_[number],
+          number + 1 < starts_.size() ? starts_[number + 1] : text_.size()};
 }
 
 std::string_view Lines::line(std::size_t number) const {
@@ -57,8 +57,7 @@ std::size_t Lines::offset(Position place, Encoding encoding) const {
 
 Position Lines::position(std::size_t offset, Encoding encoding) const {
   const auto behind = std::ranges::upper_bound(starts_, offset);
-  const auto number =
-      static_cast<std::size_t>(behind - starts_.begin()) - 1;
+  const auto number = static_cast<std::size_t>(behind - starts_.begin()) - 1;
   const std::string_view text = line(number);
   const std::size_t end = std::min(offset - starts_[number], text.size());
   std::size_t character = 0;

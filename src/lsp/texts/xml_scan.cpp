@@ -11,8 +11,8 @@ bool is_blank(char c) {
 }
 
 bool ends_name(char c) {
-  return is_blank(c) || std::string_view("<>/=\"'").find(c) !=
-                            std::string_view::npos;
+  return is_blank(c) ||
+         std::string_view("<>/=\"'").find(c) != std::string_view::npos;
 }
 
 }  // namespace

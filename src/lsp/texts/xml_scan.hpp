@@ -47,14 +47,10 @@ class XmlScan {
   explicit XmlScan(const std::string& text);
 
   const std::vector<ScannedElement>& elements() const { return elements_; }
-  const ScannedElement& operator[](std::size_t i) const {
-    return elements_[i];
-  }
+  const ScannedElement& operator[](std::size_t i) const { return elements_[i]; }
   const std::vector<TextStretch>& comments() const { return comments_; }
   std::string_view text(TextStretch part) const { return part.in(text_); }
-  std::string_view name(std::size_t i) const {
-    return text(elements_[i].name);
-  }
+  std::string_view name(std::size_t i) const { return text(elements_[i].name); }
 
   // The innermost element around a byte; kNone for none.
   std::size_t around(std::size_t at) const;
