@@ -78,7 +78,7 @@ std::string tag_snippet(const TypeWord& type) {
   std::string text = type.id;
   int place = 0;
   for (const PortWord& port : type.ports) {
-    if (!port.is_needed) continue;
+    if (!port.is_needed || !port.is_there) continue;
     text += fmt::format(" {}=\"${{{}:{}}}\"", port.name, ++place,
                         escaped(port.preset));
   }
@@ -190,6 +190,7 @@ void add_attributes(const View& view, const XmlScan& scan, std::size_t element,
     add("_autoremap", "bool", "all entries of one name are the same");
   } else if (const auto type = type_named(view, id)) {
     for (const PortWord& port : type->ports) {
+      if (!port.is_there) continue;
       add(port.name,
           port.type.empty() ? port.direction
                             : fmt::format("{} {}", port.direction, port.type),

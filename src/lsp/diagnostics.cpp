@@ -102,7 +102,7 @@ void DiagnosticList::add(const v1::Finding& finding, const Buffers& then) {
       if (!step.is_chosen || !place || count++ >= kMostRelated) continue;
       const auto of = texts_.at(step.where.file).parsed<Lines>();
       related.push(
-          {{"location", Json{{"uri", uri_of(step.where.file)},
+          {{"location", Json{{"uri", documents_.uri(step.where.file)},
                              {"range", json_of(of->range(*place, encoding_))}}},
            {"message", step.text}});
     }

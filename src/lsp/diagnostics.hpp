@@ -28,8 +28,10 @@ std::string message_of(const v1::Finding& finding);
 
 class DiagnosticList {
  public:
-  DiagnosticList(const Buffers& texts, Encoding encoding)
-      : texts_(texts), encoding_(encoding) {}
+  // All must outlive it.
+  DiagnosticList(const Buffers& texts, const Documents& documents,
+                 Encoding encoding)
+      : texts_(texts), documents_(documents), encoding_(encoding) {}
 
   // A file of which there is always something to say, if only that there is
   // nothing; what is wrong with contracts and rules that no tree reads.
@@ -50,6 +52,7 @@ class DiagnosticList {
   void add(const v1::Finding& finding, const Buffers& then);
 
   const Buffers& texts_;
+  const Documents& documents_;
   const Encoding encoding_;
   std::map<std::string, std::vector<Entry>> files_;
   std::set<std::tuple<std::string, std::size_t, std::string, std::string>>

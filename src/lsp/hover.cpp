@@ -138,6 +138,7 @@ std::string port_line(const PortWord& port) {
   add(port.type);
   if (!port.preset.empty()) add("default " + code(port.preset));
   if (port.is_needed) add("needed");
+  add(port.in);
   if (!facts.empty()) text += fmt::format(" ({})", facts);
   if (!port.about.empty()) text += ": " + plain(port.about);
   return text;
@@ -145,7 +146,7 @@ std::string port_line(const PortWord& port) {
 
 std::string type_text_of(const TypeWord& type) {
   std::string text = fmt::format("**{}** {}", plain(type.id), type.kind);
-  if (!type.since.empty()) text += fmt::format(" · since {}", type.since);
+  if (!type.since.empty()) text += " · " + plain(type.since);
   if (!type.about.empty()) text += "  \n" + plain(type.about);
   return text;
 }

@@ -186,7 +186,12 @@ std::string summary(const View& view) {
   for (const Look& look : view.looks) {
     if (!look.is_checked()) continue;
     const v1::Report& report = *look.check.report;
-    if (look.subject.rules.empty()) {
+    if (report.outcome == v1::Outcome::BadInput) {
+      const std::string& file =
+          look.subject.rules.empty() ? look.subject.tree : look.subject.rules;
+      add(fmt::format("{} is not checked: there are errors",
+                      file.substr(file.find_last_of('/') + 1)));
+    } else if (look.subject.rules.empty()) {
       const std::size_t count = finding_count(report);
       add(count == 0 ? std::string("nothing found")
                      : counted_of(count, "finding", "findings"));

@@ -137,11 +137,12 @@ std::string initialize(const JsonValue& params, Work&) {
       caps, {"textDocument", "completion", "completionItem", "snippetSupport"});
   registers_watchers = is_true(
       caps, {"workspace", "didChangeWatchedFiles", "dynamicRegistration"});
-  Refreshes refreshes;
-  refreshes.lenses = is_true(caps, {"workspace", "codeLens", "refreshSupport"});
-  refreshes.hints = is_true(caps, {"workspace", "inlayHint", "refreshSupport"});
+  Takes takes;
+  takes.lenses = is_true(caps, {"workspace", "codeLens", "refreshSupport"});
+  takes.hints = is_true(caps, {"workspace", "inlayHint", "refreshSupport"});
+  takes.progress = is_true(caps, {"window", "workDoneProgress"});
   workbench().set(wishes_of(params.member("initializationOptions")));
-  workbench().begin(std::move(folders), encoding, refreshes);
+  workbench().begin(std::move(folders), encoding, takes);
   return Json{{"capabilities", capabilities(encoding)},
               {"serverInfo", Json{{"name", "btcheck"}, {"version", kVersion}}}}
       .text();

@@ -37,6 +37,41 @@ PortWord word_of(const PortRow& row) {
   return word;
 }
 
+// "4.4 and later", "before 4.0"; "" for all.
+std::string releases_text(const Releases& in) {
+  const auto text = [](int release) {
+    // The patch of a first release is none.
+    std::string all = release_text(release);
+    return all.ends_with(".0") ? all.substr(0, all.size() - 2) : all;
+  };
+  if (in.first > 0 && in.end < kNoRelease) {
+    return fmt::format("from {} to before {}", text(in.first), text(in.end));
+  }
+  if (in.first > 0) return fmt::format("from {} on", text(in.first));
+  return in.end < kNoRelease ? fmt::format("before {}", text(in.end))
+                             : std::string();
+}
+
+// "humble, jazzy"; "" for all.
+std::string branches_text(btcpp::Nav2Branches branches) {
+  std::string text;
+  bool are_all = true;
+  for (const btcpp::Nav2Branch each :
+       {btcpp::Nav2Branch::Galactic, btcpp::Nav2Branch::Humble,
+        btcpp::Nav2Branch::Iron, btcpp::Nav2Branch::Jazzy,
+        btcpp::Nav2Branch::Kilted, btcpp::Nav2Branch::Lyrical}) {
+    if (!branches.has(each)) {
+      are_all = false;
+      continue;
+    }
+    // "nav2-humble"
+    const std::string_view name =
+        profile_name(btcpp::profile_of_branch(each)).substr(5);
+    text += text.empty() ? name : fmt::format(", {}", name);
+  }
+  return are_all ? std::string() : text;
+}
+
 TypeWord word_of(const NodeTypeRow& row, Profile profile) {
   TypeWord word;
   word.id = row.id;
@@ -44,11 +79,30 @@ TypeWord word_of(const NodeTypeRow& row, Profile profile) {
   word.about = about_type(row, profile);
   const int first = btcpp::first_release(row.id);
   if (first > 0) {
-    word.since = fmt::format("BehaviorTree.CPP {}", release_text(first));
+    word.since = fmt::format("from BehaviorTree.CPP {} on", release_text(first));
+  }
+  const bool is_nav2 = btcpp::nav2_type(row.id) == &row;
+  if (is_nav2) {
+    const std::string in = branches_text(row.branches);
+    if (!in.empty()) word.since = fmt::format("Nav2 {}", in);
   }
   for (const PortRow& port : row.ports) {
-    if (port.in.has(engine_release(profile)))
-      word.ports.push_back(word_of(port));
+    PortWord each = word_of(port);
+    each.in = is_nav2 ? branches_text(
+                            btcpp::branches_with_port(row.id, port.name))
+                      : releases_text(port.in);
+    each.is_there = port.in.has(engine_release(profile));
+    word.ports.push_back(std::move(each));
+  }
+  if (!is_nav2) return word;
+  for (const std::string_view port : btcpp::ports_of_branches(row.id)) {
+    if (word.port(port) != nullptr) continue;
+    const btcpp::Nav2Branches in = btcpp::branches_with_port(row.id, port);
+    PortWord each;
+    each.name = port;
+    each.in = branches_text(in);
+    each.is_there = !has_nav2(profile) || in.has(btcpp::branch_of(profile));
+    word.ports.push_back(std::move(each));
   }
   return word;
 }

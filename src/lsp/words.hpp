@@ -23,13 +23,15 @@ struct PortWord {
   std::string preset;
   std::string about;
   bool is_needed = false;
+  std::string in;        // the releases that have it; "" for all
+  bool is_there = true;  // in that of the document
 };
 
 struct TypeWord {
   std::string id;
   std::string kind;  // "Control", ...
   std::string about;
-  std::string since;  // "BehaviorTree.CPP 4.2"; "" for all
+  std::string since;  // "from BehaviorTree.CPP 4.2 on"; "" for all
   std::vector<PortWord> ports;
 
   const PortWord* port(std::string_view name) const;

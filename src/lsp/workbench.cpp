@@ -24,16 +24,54 @@ namespace btcheck::lsp {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-// An edit makes what is under way worth nothing.
+// An edit makes what is under way worth nothing. A check that lasts tells how
+// far it is.
 class CheckMonitor final : public v1::Monitor {
  public:
-  bool goes_on(const v1::Progress& /*progress*/) override {
-    return !is_cancelled_ && limits_of_command().overdrawn() != Spent::Memory;
+  CheckMonitor(Workbench& bench, std::string name, bool tells)
+      : bench_(bench), name_(std::move(name)), tells_(tells) {}
+  ~CheckMonitor() override {
+    if (!token_.empty()) tell(Json{{"kind", "end"}});
+  }
+  CheckMonitor(const CheckMonitor&) = delete;
+  CheckMonitor& operator=(const CheckMonitor&) = delete;
+
+  bool goes_on(const v1::Progress& progress) override {
+    if (is_cancelled_ || limits_of_command().overdrawn() == Spent::Memory) {
+      return false;
+    }
+    const std::unique_lock lock(telling_, std::try_to_lock);
+    if (!tells_ || !lock || progress.seconds < next_) return true;
+    next_ = progress.seconds + kEvery;
+    const std::string states = fmt::format("{} states", progress.states);
+    if (token_.empty()) {
+      static std::atomic<int> count = 0;
+      token_ = fmt::format("btcheck-check-{}", ++count);
+      bench_.demand("window/workDoneProgress/create", Json{{"token", token_}});
+      tell(Json{{"kind", "begin"},
+                {"title", "btcheck " + name_},
+                {"message", states}});
+    } else {
+      tell(Json{{"kind", "report"}, {"message", states}});
+    }
+    return true;
   }
   void cancel() { is_cancelled_ = true; }
   bool is_cancelled() const { return is_cancelled_; }
 
  private:
+  static constexpr double kEvery = 0.5;  // seconds
+
+  void tell(const Json& value) {
+    bench_.notify("$/progress", Json{{"token", token_}, {"value", value}});
+  }
+
+  Workbench& bench_;
+  const std::string name_;
+  const bool tells_;
+  std::mutex telling_;
+  double next_ = 1;  // seconds, when it is told
+  std::string token_;
   std::atomic<bool> is_cancelled_ = false;
 };
 
@@ -155,10 +193,10 @@ Workbench::~Workbench() {
 }
 
 void Workbench::begin(std::vector<std::string> folders, Encoding encoding,
-                      const Refreshes& refreshes) {
+                      const Takes& takes) {
   const std::scoped_lock lock(mutex_);
   encoding_ = encoding;
-  refreshes_ = refreshes;
+  takes_ = takes;
   folders_ = std::move(folders);
   folders_changed_ = true;
   is_begun_ = true;
@@ -356,6 +394,8 @@ v1::Request Workbench::request_of(const Subject& subject) const {
 // lies in none of them, in its repository or folder.
 Options Workbench::options_for(const Subject& subject) const {
   Options options = options_;
+  if (options.given.contains("--root")) return options;
+  options.roots = folders_;
   const bool is_inside =
       std::ranges::any_of(folders_, [&](const std::string& folder) {
         return subject.tree.starts_with(folder + "/");
@@ -417,7 +457,6 @@ void Workbench::lint_loop() {
       read.read(folders);
       lock.lock();
       workspace_ = std::move(read);
-      options_.roots = folders_;
       for (const auto& [path, document] : documents_.all()) {
         workspace_.put(path, document.text);
       }
@@ -503,9 +542,9 @@ void Workbench::check_loop() {
     std::erase_if(contents, [&](const auto& known) {
       return !looks_.contains(known.first);
     });
-    checking_ = std::make_shared<CheckMonitor>();
-    checked_ = *subject;
-    const auto monitor = checking_;
+    checking_ = std::make_shared<CheckMonitor>(
+        *this, fs::path(subject->tree).filename().string(), takes_.progress);
+      auto monitor = checking_;
     const Texts texts = texts_now();
     const std::uint64_t edit = edits_;
     const Look before = looks_.at(*subject);
@@ -537,6 +576,9 @@ void Workbench::check_loop() {
     keep(report, true);
     lock.lock();
     checking_.reset();
+    lock.unlock();
+    monitor.reset();  // tells that it has ended
+    lock.lock();
   }
 }
 
@@ -582,7 +624,7 @@ void Workbench::publish() {
   {
     const std::scoped_lock lock(mutex_);
     const Texts texts = texts_now();
-    DiagnosticList list(*texts, encoding_);
+    DiagnosticList list(*texts, documents_, encoding_);
     for (const auto& [of, document] : documents_.all()) {
       if (document.kind == FileKind::Other) {
         untold_.erase(of);
@@ -664,8 +706,8 @@ View Workbench::view_of(const std::string& path) {
 }
 
 void Workbench::tell_check(const Subject& subject) {
-  if (refreshes_.lenses) demand("workspace/codeLens/refresh");
-  if (refreshes_.hints) demand("workspace/inlayHint/refresh");
+  if (takes_.lenses) demand("workspace/codeLens/refresh");
+  if (takes_.hints) demand("workspace/inlayHint/refresh");
   std::vector<std::pair<std::string, View>> views;
   {
     const std::scoped_lock lock(mutex_);

@@ -39,10 +39,11 @@ struct Wishes {
   double seconds = 20;  // of one check; 0: no limit
 };
 
-// What the editor wants to be told of, to ask again.
-struct Refreshes {
+// What the editor takes: that it is to ask again, and how far a check is.
+struct Takes {
   bool lenses = false;
   bool hints = false;
+  bool progress = false;
 };
 
 // All texts at one time, by their paths.
@@ -102,7 +103,7 @@ class Workbench {
   // --- What the editor tells ------------------------------------------------
 
   void begin(std::vector<std::string> folders, Encoding encoding,
-             const Refreshes& refreshes);
+             const Takes& takes);
   void set(const Wishes& wishes);
   void change_folders(const JsonValue& event);
   void open(const JsonValue& params);
@@ -124,6 +125,7 @@ class Workbench {
   bool wait_for_check(const JsonValue& params, Work& work);
   // The page of a tree without a run; "" where it cannot be made.
   std::string drawn(const Look& look, Work& work);
+  // Any thread may.
   void notify(std::string_view method, const Json& params);
   // A request whose answer nobody waits for.
   void demand(std::string_view method, const std::optional<Json>& params = {});
@@ -162,7 +164,7 @@ class Workbench {
   Options options_;
   const std::uint64_t bytes_;
   Encoding encoding_ = Encoding::Utf16;
-  Refreshes refreshes_;
+  Takes takes_;
   std::atomic<std::uint64_t> demands_ = 0;
 
   mutable std::mutex mutex_;
@@ -185,7 +187,6 @@ class Workbench {
   Texts texts_;                   // null where they have to be made anew
   std::map<std::string, std::pair<std::int64_t, std::int64_t>> stamps_;
   std::shared_ptr<CheckMonitor> checking_;
-  Subject checked_;
 
   std::mutex telling_;                       // taken before mutex_
   std::map<std::string, std::string> told_;  // by path, as it was sent last

@@ -20,6 +20,7 @@
 #include "cli/options/tables.hpp"
 #include "shell.hpp"
 #include "temporary_folder.hpp"
+#include "text/json.hpp"
 
 namespace btcheck::every_option_test {
 namespace {
@@ -85,6 +86,27 @@ struct Language {
 };
 const Language kLanguages[] = {{"t.btf", kBtf}, {"t.xml", kXml}};
 
+// An editor that opens the tree, asks what a check comes to, and ends.
+std::string editor_session(const fs::path& folder, const std::string& tree,
+                           std::string_view text) {
+  const std::string uri = Json("file://" + (folder / tree).string()).text();
+  std::string all;
+  const auto send = [&](const std::string& message) {
+    all += fmt::format("Content-Length: {}\r\n\r\n{}", message.size(), message);
+  };
+  send(fmt::format(R"({{"jsonrpc":"2.0","id":1,"method":"initialize","params":)"
+                   R"({{"rootUri":{}}}}})",
+                   Json("file://" + folder.string()).text()));
+  send(fmt::format(
+      R"({{"jsonrpc":"2.0","method":"textDocument/didOpen","params":)"
+      R"({{"textDocument":{{"uri":{},"version":1,"text":{}}}}}}})",
+      uri, Json(text).text()));
+  send(fmt::format(R"({{"jsonrpc":"2.0","id":2,"method":"btcheck/check",)"
+                   R"("params":{{"textDocument":{{"uri":{}}}}}}})",
+                   uri));
+  return all;
+}
+
 // A folder with a tree and all that options name.
 void fill(const fs::path& folder, const Language& language) {
   fs::create_directory(folder / "trees");
@@ -115,6 +137,7 @@ void fill(const fs::path& folder, const Language& language) {
                     R"("params":{{"name":"check_tree","arguments":)"
                     R"({{"tree":"{}"}}}}}})",
                     tree));
+  write(folder / "open.rpc", editor_session(folder, tree, language.text));
   fs::create_directory(folder / "asked");
   write(folder / "asked/t.xml", kAsked);
   write(folder / "asked/btcheck.toml", "[levels]\nBT2502 = \"allow\"\n");
@@ -217,7 +240,8 @@ constexpr Without kWithout[] = {
     {"conform", "--tick-ms", "t.btf", "the log has its ticks"},
     {"serve", "--stdio", "", "there is no other way"},
     {"serve", "--max-states", "t.xml", "as of init"},
-    {"serve mcp", "-q -v --color", "", "programs read what it prints"},
+    {"serve mcp lsp", "-q -v --color", "", "programs read what it prints"},
+    {"lsp", "--stdio", "", "there is no other way"},
     {"conform", "-q", "", "it prints what it has found and nothing else"},
 };
 
@@ -266,6 +290,8 @@ std::vector<std::string> lines_of(const CommandRow& row,
       return {"serve <init.rpc", "serve <describe.rpc"};
     case Command::Mcp:
       return {"mcp <check.rpc"};
+    case Command::Lsp:
+      return {"lsp <open.rpc"};
     case Command::Monitor:
       return {line + " <events.jsonl",
               line + " --prop trees/t.ltl " + "<events.jsonl"};
@@ -284,6 +310,11 @@ std::string seen(const Outcome& outcome, const fs::path& folder) {
   std::string text =
       fmt::format("exit {}\n{}", outcome.code,
                   std::regex_replace(outcome.text, kMeasured, "#"));
+  // Each time it is another folder.
+  const std::string name = folder.string();
+  for (auto at = text.find(name); at != text.npos; at = text.find(name)) {
+    text.replace(at, name.size(), "FOLDER");
+  }
   std::set<std::string> files;
   for (const auto& each : fs::recursive_directory_iterator(folder)) {
     files.insert(each.path().lexically_relative(folder).string());

@@ -265,6 +265,9 @@ std::span<const NodeTypeRow> nav2_types();
 // Those that have this port of a node of Nav2, as far as they differ in it.
 Nav2Branches branches_with_port(std::string_view node, std::string_view port);
 
+// The ports of a node of Nav2 in which the branches differ.
+std::vector<std::string_view> ports_of_branches(std::string_view node);
+
 // The branches that can load the document, by the types of Nav2 in it and their
 // ports that not all of them have. Types that a model describes say nothing.
 Nav2Branches branches_for(const BtcppDocument& document);

@@ -147,6 +147,14 @@ Nav2Branches branches_with_port(std::string_view node, std::string_view port) {
   return branches;
 }
 
+std::vector<std::string_view> ports_of_branches(std::string_view node) {
+  std::vector<std::string_view> ports;
+  for (const PortOfBranches& row : kPortsOfBranches) {
+    if (row.node == node) ports.push_back(row.port);
+  }
+  return ports;
+}
+
 Nav2Branches branches_for(const BtcppDocument& document) {
   constexpr Nav2Branches kOn3 =
       Nav2Branches::between(Nav2Branch::Galactic, Nav2Branch::Iron);
