@@ -16,6 +16,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/settings/choices.hpp"
+#include "ltl/rules/property.hpp"
 #include "model/foreign_format.hpp"
 #include "model/tree_file.hpp"
 #include "text/numbers.hpp"

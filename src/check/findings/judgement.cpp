@@ -15,10 +15,10 @@ namespace fs = std::filesystem;
 
 // --- Comments ------------------------------------------------------------
 
-bool allows(std::string_view line, std::string_view code) {
-  constexpr std::string_view kWord = "btcheck: allow";
-  const auto at = line.find(kWord);
-  return at != line.npos && line.find(code, at) != line.npos;
+// What a comment in the line allows, from its first code on; "" for nothing.
+std::string_view allowed_in(std::string_view line) {
+  const auto at = line.find(kAllow);
+  return at == line.npos ? std::string_view() : line.substr(at + kAllow.size());
 }
 
 // A line of comments alone, as far as one line tells.
@@ -30,16 +30,11 @@ bool is_comment(std::string_view line) {
          text.ends_with("-->");
 }
 
-// In the line, or in those right above it: `<!-- btcheck: allow BT2208: the
-// last recovery ends it -->`, in .btf files `; btcheck: allow BT2205`.
 bool is_allowed_at(const SourceText& source, int line, std::string_view code) {
-  if (allows(source.line(line), code)) return true;
-  for (int above = line - 1; above > 0; --above) {
-    const std::string text = source.line(above);
-    if (!is_comment(text)) return false;
-    if (allows(text, code)) return true;
-  }
-  return false;
+  return std::ranges::any_of(allowances_at(source, line),
+                             [&](const std::string& allowed) {
+                               return allowed.find(code) != allowed.npos;
+                             });
 }
 
 // --- Levels --------------------------------------------------------------
@@ -94,6 +89,17 @@ std::string shortened_line(const std::string& line) {
 }
 
 }  // namespace
+
+std::vector<std::string> allowances_at(const SourceText& source, int line) {
+  std::vector<std::string> found;
+  for (int at = line; at > 0; --at) {
+    const std::string text = source.line(at);
+    if (at < line && !is_comment(text)) break;
+    const std::string_view allowed = allowed_in(text);
+    if (!allowed.empty()) found.emplace_back(allowed);
+  }
+  return found;
+}
 
 std::string placed(const std::string& directory, const std::string& file) {
   return (fs::path(directory) / file).lexically_normal().string();

@@ -140,10 +140,6 @@ bool take_baseline(Options& options) {
   return true;
 }
 
-bool is_property_file(const std::string& name) {
-  return name.ends_with(".ltl") || name.ends_with(".btp");
-}
-
 namespace {
 
 // A batch has read its trees and some of their rules.

@@ -15,9 +15,6 @@
 
 namespace btcheck {
 
-// "rules.ltl", "rules.btp".
-bool is_property_file(const std::string& name);
-
 struct Inputs {
   TreeInput tree;  // with the files that it includes
   std::vector<InputFile> properties;

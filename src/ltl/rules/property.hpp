@@ -166,6 +166,9 @@ struct PropertyFile {
   std::vector<Atom> atoms;              // numbered by the atoms of `formulas`
 };
 
+// "rules.ltl", "rules.btp".
+bool is_property_file(std::string_view name);
+
 // Whether the text is one of items (`property`, `let`, …) or of comments, not
 // of a rule alone, `never land.failure`.
 bool begins_item(std::string_view text);

@@ -404,6 +404,10 @@ class FileReader {
 
 }  // namespace
 
+bool is_property_file(std::string_view name) {
+  return name.ends_with(".ltl") || name.ends_with(".btp");
+}
+
 bool begins_item(std::string_view text) {
   const SourceText source("", text);
   PropertyFile file;

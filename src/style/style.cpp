@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+//
+// Nothing is given back unless it says what was read: the same words, tags and
+// values, the same comments, and those that allow findings at the same nodes.
+#include "style/style.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "check/findings/judgement.hpp"
+#include "ltl/rules/property.hpp"
+#include "model/btcpp/xml_text.hpp"
+#include "model/btf/forms.hpp"
+#include "model/foreign_format.hpp"
+#include "model/tree_file.hpp"
+#include "style/forms.hpp"
+#include "style/rules.hpp"
+#include "style/xml.hpp"
+#include "text/findings.hpp"
+
+namespace btcheck {
+namespace {
+
+Result<std::string> refused_style(Diagnostic why) {
+  return {std::nullopt, {std::move(why)}};
+}
+
+// What comments allow at a place, however they are laid out.
+class Allowances {
+ public:
+  explicit Allowances(const SourceText& source)
+      : source_(source), is_any_(source.text().find(kAllow) != kNowhere) {}
+
+  bool is_any() const { return is_any_; }
+  const std::vector<std::string>& at(const SourceSpan& span) {
+    if (!is_any_ || span.line == line_) return found_;
+    line_ = span.line;
+    found_ = allowances_at(source_, line_);
+    for (std::string& each : found_) {
+      each.resize(std::min(each.find("-->"), each.size()));
+      each.resize(each.find_last_not_of(" \t\r") + 1);
+    }
+    std::ranges::sort(found_);
+    return found_;
+  }
+
+ private:
+  static constexpr std::size_t kNowhere = std::string_view::npos;
+
+  const SourceText& source_;
+  bool is_any_;
+  int line_ = 0;
+  std::vector<std::string> found_;
+};
+
+// The places where findings can be told.
+std::vector<SourceSpan> places_in(
+    const std::vector<btcpp::XmlElement>& elements) {
+  std::vector<SourceSpan> places;
+  for (const btcpp::XmlElement& element : elements) {
+    places.push_back(element.span);
+    // Their order is no matter.
+    std::vector<const btcpp::XmlAttribute*> attributes;
+    for (const auto& each : element.attributes) attributes.push_back(&each);
+    std::ranges::sort(attributes, {}, &btcpp::XmlAttribute::name);
+    for (const auto* each : attributes) places.push_back(each->name_span);
+  }
+  return places;
+}
+
+std::vector<SourceSpan> places_in(const btf::ParsedForms& parsed) {
+  std::vector<SourceSpan> places;
+  for (const btf::Token& token : parsed.forms.tokens) {
+    places.push_back(token.span);
+  }
+  return places;
+}
+
+// The place where a comment would allow something else than before.
+std::optional<SourceSpan> lost_allowance(
+    const SourceText& before, const std::vector<SourceSpan>& places_before,
+    const SourceText& after, const std::vector<SourceSpan>& places_after) {
+  Allowances allowed_before(before);
+  Allowances allowed_after(after);
+  if (!allowed_before.is_any()) return std::nullopt;
+  for (std::size_t i = 0; i < places_before.size(); ++i) {
+    const SourceSpan& place = places_before[i];
+    if (allowed_before.at(place) != allowed_after.at(places_after[i])) {
+      return place;
+    }
+  }
+  return std::nullopt;
+}
+
+Result<std::string> kept_or_refused(const SourceText& source, std::string text,
+                                    bool is_kept,
+                                    std::optional<SourceSpan> lost) {
+  if (!is_kept) {
+    return refused_style(file_error(
+        "BT0013", std::string(source.name()),
+        "this file would say something else in the style of `btcheck fmt`",
+        "it is left as it is; please report this"));
+  }
+  if (!lost) return {std::move(text), {}};
+  return refused_style(source.diagnostic(
+      Severity::Error, "BT0013", *lost,
+      "a comment would allow something else in the style of `btcheck fmt`",
+      "other findings would be allowed here",
+      "put the comment into a line of its own, right above what it is about"));
+}
+
+Result<std::string> styled_xml_file(const InputFile& file,
+                                    const SourceText& source) {
+  const auto parsed = file.text.parsed<btcpp::ParsedXml>();
+  if (!parsed->value) {
+    return {std::nullopt, named(parsed->diagnostics, file.name)};
+  }
+  const auto& elements = *parsed->value;
+  Allowances allowed(source);
+  const auto keeps_lines = [&](const btcpp::XmlElement& element) {
+    if (!allowed.at(element.span).empty()) return true;
+    return std::ranges::any_of(element.attributes,
+                               [&](const btcpp::XmlAttribute& each) {
+                                 return !allowed.at(each.name_span).empty();
+                               });
+  };
+  std::string text = style::styled_xml(source.text(), elements, keeps_lines);
+  const btcpp::ParsedXml again(text);
+  if (!again.value) return kept_or_refused(source, {}, false, {});
+  const SourceText after(file.name, text);
+  const bool is_kept = style::said_in_xml(source.text(), elements) ==
+                       style::said_in_xml(text, *again.value);
+  const auto lost = is_kept ? lost_allowance(source, places_in(elements), after,
+                                             places_in(*again.value))
+                            : std::nullopt;
+  return kept_or_refused(source, std::move(text), is_kept, lost);
+}
+
+Result<std::string> styled_forms_file(const InputFile& file,
+                                      const SourceText& source) {
+  const auto parsed = file.text.parsed<btf::ParsedForms>();
+  if (parsed->findings.has_error()) {
+    return {std::nullopt, Findings(source, parsed->findings).take()};
+  }
+  std::string text = style::styled_forms(*parsed);
+  const btf::ParsedForms again(text);
+  const SourceText after(file.name, text);
+  const bool is_kept =
+      style::words_and_comments(*parsed) == style::words_and_comments(again);
+  const auto lost = is_kept ? lost_allowance(source, places_in(*parsed), after,
+                                             places_in(again))
+                            : std::nullopt;
+  return kept_or_refused(source, std::move(text), is_kept, lost);
+}
+
+Result<std::string> styled_rules_file(const InputFile& file,
+                                      const SourceText& source) {
+  auto read = read_properties(file.name, file.text);
+  if (!read.value) return {std::nullopt, std::move(read.diagnostics)};
+  std::string text = style::styled_rules(source);
+  const auto again = read_properties(file.name, text);
+  const auto titles_of = [](const Result<PropertyFile>& rules) {
+    std::vector<std::string> titles;
+    for (const Property& each : rules.value->properties) {
+      titles.push_back(each.title);
+    }
+    return titles;
+  };
+  const bool is_kept = again.value && titles_of(again) == titles_of(read) &&
+                       style::words_of_rules(source) ==
+                           style::words_of_rules(SourceText(file.name, text));
+  return kept_or_refused(source, std::move(text), is_kept, std::nullopt);
+}
+
+bool holds_rules(const InputFile& file) {
+  if (is_property_file(file.name)) return true;
+  const bool is_named =
+      is_tree_name(file.name) || file.name.ends_with(".leaves");
+  return !is_named && begins_item(file.text.text());
+}
+
+}  // namespace
+
+Result<std::string> styled(const InputFile& file) {
+  const SourceText source(file.name, file.text.text());
+  if (auto binary = source.refuse_binary()) return refused_style(*binary);
+  if (holds_rules(file)) return styled_rules_file(file, source);
+  if (!file.name.ends_with(".leaves")) {
+    if (auto foreign = refusal_of_foreign(file.name, file.text)) {
+      return refused_style(std::move(*foreign));
+    }
+    if (is_xml(file.name, file.text)) return styled_xml_file(file, source);
+  }
+  return styled_forms_file(file, source);
+}
+
+}  // namespace btcheck
