@@ -256,6 +256,7 @@ constexpr auto kRuns = std::to_array<RunOf>({
     {Command::Monitor, run_monitor},   {Command::Leaves, run_leaves},
     {Command::Answer, run_answer},     {Command::Serve, run_serve},
     {Command::Mcp, run_mcp},           {Command::Lsp, run_lsp},
+    {Command::Fmt, run_fmt},
 });
 static_assert(is_indexed(kRuns, &RunOf::command));
 

@@ -25,5 +25,6 @@ ExitCode run_run(const Options& options);
 ExitCode run_init(const Options& options);
 ExitCode run_conform(const Options& options);
 ExitCode run_monitor(const Options& options);
+ExitCode run_fmt(const Options& options);
 
 }  // namespace btcheck

@@ -4,6 +4,8 @@
 // values, the same comments, and those that allow findings at the same nodes.
 #include "style/style.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <string_view>
@@ -175,11 +177,19 @@ Result<std::string> styled_rules_file(const InputFile& file,
   return kept_or_refused(source, std::move(text), is_kept, std::nullopt);
 }
 
+bool is_named_otherwise(const InputFile& file) {
+  return is_tree_name(file.name) || file.name.ends_with(".leaves");
+}
+
 bool holds_rules(const InputFile& file) {
   if (is_property_file(file.name)) return true;
-  const bool is_named =
-      is_tree_name(file.name) || file.name.ends_with(".leaves");
-  return !is_named && begins_item(file.text.text());
+  return !is_named_otherwise(file) && begins_item(file.text.text());
+}
+
+bool holds_forms(const InputFile& file) {
+  if (is_named_otherwise(file)) return true;
+  const auto& tokens = file.text.parsed<btf::ParsedForms>()->forms.tokens;
+  return !tokens.empty() && tokens.front().kind == btf::FormKind::List;
 }
 
 }  // namespace
@@ -193,6 +203,13 @@ Result<std::string> styled(const InputFile& file) {
       return refused_style(std::move(*foreign));
     }
     if (is_xml(file.name, file.text)) return styled_xml_file(file, source);
+  }
+  if (!holds_forms(file)) {
+    return refused_style(file_error(
+        "BT1652", file.name,
+        fmt::format("`{}` is no tree, no contracts and no rules", file.name),
+        "trees end in .xml, .btproj or .btf, rules in .ltl or .btp, contracts "
+        "in .leaves"));
   }
   return styled_forms_file(file, source);
 }

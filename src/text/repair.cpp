@@ -157,10 +157,19 @@ std::string heading(int first, const std::vector<std::string>& lines,
                      stretch(first + shift, '-'));
 }
 
-std::vector<std::string> lines_of(const ChangedFile& file, const Group& group) {
+// As a program takes it.
+std::string exact(const std::string& line) {
+  if (line.ends_with('\n')) return line.substr(0, line.size() - 1);
+  return line + "\n\\ No newline at end of file";
+}
+
+using ShownLine = std::string (*)(const std::string& line);
+
+std::vector<std::string> lines_of(const ChangedFile& file, const Group& group,
+                                  ShownLine shown) {
   std::vector<std::string> lines;
   const auto add = [&](char sign, const std::string& line) {
-    lines.push_back(sign + quoted(line));
+    lines.push_back(sign + shown(line));
   };
   for (std::size_t i = group.first; i < group.end; ++i) {
     const auto& [before, after] = file.around[i];
@@ -176,13 +185,14 @@ std::vector<std::string> lines_of(const ChangedFile& file, const Group& group) {
   return lines;
 }
 
-void add_diff(const ChangedFile& file, std::vector<std::string>& lines) {
+void add_diff(const ChangedFile& file, ShownLine shown,
+              std::vector<std::string>& lines) {
   std::ptrdiff_t shift = 0;
   for (const Group& group : groups_of(file.changes)) {
     const bool has_before = !file.around[group.first].first.empty();
     const int first =
         file.changes[group.first].first - static_cast<int>(has_before);
-    const std::vector<std::string> told = lines_of(file, group);
+    const std::vector<std::string> told = lines_of(file, group, shown);
     lines.push_back(heading(first, told, shift));
     lines.insert(lines.end(), told.begin(), told.end());
     for (std::size_t i = group.first; i < group.end; ++i) {
@@ -222,6 +232,12 @@ ChangedFile changed_lines(const std::string& file, const std::string& before,
   return changed;
 }
 
+std::string unified_diff(const ChangedFile& file) {
+  std::vector<std::string> lines = {"--- " + file.file, "+++ " + file.file};
+  add_diff(file, exact, lines);
+  return fmt::format("{}\n", fmt::join(lines, "\n"));
+}
+
 std::vector<std::string> diff_lines(const CheckedRepair& repair,
                                     std::size_t most) {
   std::vector<std::string> lines;
@@ -230,7 +246,7 @@ std::vector<std::string> diff_lines(const CheckedRepair& repair,
       lines.push_back("--- " + file.file);
       lines.push_back("+++ " + file.file);
     }
-    add_diff(file, lines);
+    add_diff(file, quoted, lines);
   }
   if (lines.size() > most + 1) {
     const std::size_t left_out = lines.size() - most;

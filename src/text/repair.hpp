@@ -113,6 +113,9 @@ struct CheckedRepair {
 ChangedFile changed_lines(const std::string& file, const std::string& before,
                           const std::string& after);
 
+// The same as a unified diff, byte for byte: for programs.
+std::string unified_diff(const ChangedFile& file);
+
 // A unified diff with a line of context, of at most so many lines; the last
 // says how many are left out.
 std::vector<std::string> diff_lines(const CheckedRepair& repair,

@@ -135,40 +135,19 @@ class FolderSearch {
   }
 
  private:
-  // The files, folder by folder; or the folder that cannot be read. Folders
-  // that are links are not followed, so this ends.
+  // Or the folder that cannot be read.
   std::optional<BatchEntry> collect() {
-    std::vector<fs::path> folders = {folder_};
-    while (!folders.empty()) {
-      const fs::path folder = std::move(folders.back());
-      folders.pop_back();
-      std::error_code fault;
-      fs::directory_iterator at(folder, fault);
-      for (; !fault && at != fs::directory_iterator(); at.increment(fault)) {
-        take(*at, folders);
-      }
-      if (fault) {
-        return refused(folder.string(), "BT0002",
-                       fmt::format("cannot read the folder `{}`: {}",
-                                   folder.string(), fault.message()));
-      }
+    const auto found = files_in(folder_.string(), excluded_, settings_);
+    if (!found.value) {
+      const Diagnostic& fault = found.diagnostics.front();
+      return refused(fault.file, fault.code, fault.message);
     }
-    std::sort(properties_.begin(), properties_.end());
+    for (const std::string& name : *found.value) take(name);
     return std::nullopt;
   }
 
-  void take(const fs::directory_entry& found, std::vector<fs::path>& folders) {
-    const fs::path path = found.path().lexically_normal();
-    const std::string name = path.string();
-    if (path.filename().string().starts_with('.')) return;
-    std::error_code fault;
-    if (excluded_.contains(name)) return;
-    if (settings_.has(fs::absolute(path, fault).lexically_normal().string())) {
-      return;
-    }
-    if (found.is_directory(fault)) {
-      if (!found.is_symlink(fault)) folders.push_back(path);
-    } else if (is_property_file(name)) {
+  void take(const std::string& name) {
+    if (is_property_file(name)) {
       properties_.push_back(name);
     } else if (name.ends_with(".btf") ||
                (is_xml_name(name) && unbroken(name) != name)) {
@@ -385,6 +364,44 @@ void make_names_unique(std::vector<BatchEntry>& entries) {
 }
 
 }  // namespace
+
+// Folder by folder. Those that are links are not followed, so this ends.
+Result<std::vector<std::string>> files_in(const std::string& folder,
+                                          const std::set<std::string>& exclude,
+                                          const Excludes& settings) {
+  std::vector<std::string> files;
+  std::vector<fs::path> folders = {fs::path(folder).lexically_normal()};
+  const auto take = [&](const fs::directory_entry& found) {
+    const fs::path path = found.path().lexically_normal();
+    std::error_code fault;
+    if (path.filename().string().starts_with('.') ||
+        exclude.contains(path.string()) ||
+        settings.has(fs::absolute(path, fault).lexically_normal().string())) {
+      return;
+    }
+    if (!found.is_directory(fault)) {
+      files.push_back(path.string());
+    } else if (!found.is_symlink(fault)) {
+      folders.push_back(path);
+    }
+  };
+  while (!folders.empty()) {
+    const fs::path next = std::move(folders.back());
+    folders.pop_back();
+    std::error_code fault;
+    fs::directory_iterator at(next, fault);
+    for (; !fault && at != fs::directory_iterator(); at.increment(fault)) {
+      take(*at);
+    }
+    if (!fault) continue;
+    return {std::nullopt,
+            {file_error("BT0002", next.string(),
+                        fmt::format("cannot read the folder `{}`: {}",
+                                    next.string(), fault.message()))}};
+  }
+  std::ranges::sort(files);
+  return {std::move(files), {}};
+}
 
 std::vector<BatchEntry> entries_in(const std::string& folder,
                                    const std::vector<std::string>& exclude,

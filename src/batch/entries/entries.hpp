@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,12 @@ std::vector<BatchEntry> entries_in(const std::string& folder,
                                    const std::vector<std::string>& exclude,
                                    const Excludes& settings = {},
                                    std::vector<std::string> roots = {});
+
+// The files in a folder and all folders below it, ascending, with the same left
+// out. Without a value a folder cannot be read.
+Result<std::vector<std::string>> files_in(
+    const std::string& folder, const std::set<std::string>& exclude = {},
+    const Excludes& settings = {});
 
 // What folders and manifests name, one after the other; those of this shard. A
 // folder with a `batch.toml` is what that says. A .btproj whose files name

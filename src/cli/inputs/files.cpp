@@ -180,7 +180,11 @@ std::string write_file(const std::string& name, const std::string& text) {
   return is_device(name) ? put(name, text, O_APPEND) : replace_file(name, text);
 }
 
-std::string replace_file(const std::string& name, const std::string& text) {
+namespace {
+
+// With these permissions, or those that a new file has.
+std::string put_in_place(const std::string& name, const std::string& text,
+                         std::optional<mode_t> mode) {
   const std::scoped_lock writing(output_mutex());
   // Nobody has it: neither another process, on another machine perhaps, nor
   // somebody who has put a link there.
@@ -191,7 +195,8 @@ std::string replace_file(const std::string& name, const std::string& text) {
     temporary = fmt::format("{}.{}-{}.tmp", name, ::getpid(), ++count);
     file.emplace(temporary, O_WRONLY | O_CREAT | O_EXCL);
   } while (!file->is_open() && errno == EEXIST);
-  if (!file->is_open() || !file->write(text)) {
+  if (!file->is_open() || (mode && ::fchmod(file->number(), *mode) != 0) ||
+      !file->write(text)) {
     const std::string complaint = cannot_write(name);
     std::remove(temporary.c_str());
     return complaint;
@@ -201,6 +206,20 @@ std::string replace_file(const std::string& name, const std::string& text) {
   if (!fault) return {};
   std::remove(temporary.c_str());
   return fmt::format("cannot write `{}`: {}", name, fault.message());
+}
+
+}  // namespace
+
+std::string replace_file(const std::string& name, const std::string& text) {
+  return put_in_place(name, text, std::nullopt);
+}
+
+std::string rewrite_file(const std::string& name, const std::string& text) {
+  std::error_code fault;
+  const std::string file = std::filesystem::canonical(name, fault).string();
+  const OpenFile there(fault ? name : file, O_WRONLY);
+  if (!there.is_open()) return cannot_write(name);
+  return put_in_place(file, text, there.mode() & 07777);
 }
 
 std::string append_file(const std::string& name, const std::string& text) {

@@ -70,6 +70,11 @@ std::string write_file(const std::string& name, const std::string& text);
 // The same, and nothing is ever written to what is there under that name.
 std::string replace_file(const std::string& name, const std::string& text);
 
+// The same of a file that is there, and keeps its permissions; where it is a
+// link, of the one that it leads to. One that may not be written to stays as it
+// is.
+std::string rewrite_file(const std::string& name, const std::string& text);
+
 // Adds the text to the end of a file, which is made if need be. Returns what
 // went wrong, or "".
 std::string append_file(const std::string& name, const std::string& text);

@@ -31,7 +31,7 @@ constexpr std::array<Offer, 6> kValues = {
       ":{name}:_files -/", " -x -a '(__fish_complete_directories)'"}}};
 
 // For the other words of a command, in the order of ArgumentKind.
-constexpr std::array<Offer, 8> kArguments = {
+constexpr std::array<Offer, 9> kArguments = {
     {{":", "", ""},
      {"files '*.@(btf|xml|btproj|ltl|btp)'",
       "':tree:_files -g \"*.(btf|xml|btproj|ltl|btp)\"'", " -F"},
@@ -39,6 +39,8 @@ constexpr std::array<Offer, 8> kArguments = {
       "'*:tree:_files -g \"*.(btf|xml|btproj|ltl|btp)\"'", " -F"},
      {"files '*.@(btf|xml|btproj|toml)'",
       "'*:batch:_files -g \"*.(btf|xml|btproj|toml)\"'", " -F"},
+     {"files '*.@(btf|xml|btproj|ltl|btp|leaves)'",
+      "'*:file:_files -g \"*.(btf|xml|btproj|ltl|btp|leaves)\"'", " -F"},
      {"files '*'", "':run:_files'", " -F"},
      {"files '*'", "'*:log:_files'", " -F"},
      {"offer '{words}'", "':code:({words})'", " -a '{words}'"},

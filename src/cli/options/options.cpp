@@ -288,6 +288,18 @@ void settle_view(const OptionWords& words, Options& options) {
   settle_number(words, "--view", 0, UINT16_MAX, *options.view);
 }
 
+void settle_formatting(const OptionWords& words, Options& options) {
+  FormattingPlan& plan = options.formatting;
+  plan.checks = words.has("--check");
+  plan.shows = words.has("--diff");
+  plan.verifies = words.has("--verify");
+  plan.stdin_name = words.value("--stdin-name");
+  if (words.has("--stdin-name") && options.input != kStandardInput) {
+    refuse("--stdin-name goes with `-`",
+           "btcheck fmt - --stdin-name TREE.xml <FILE >FORMATTED");
+  }
+}
+
 void settle_conform(const OptionWords& words, Options& options) {
   options.learned = words.value("--learn-leaves");
   options.tells_coverage = words.has("--coverage");
@@ -359,7 +371,11 @@ void refuse_standard_input(const OptionWords& words, std::ptrdiff_t count) {
   const CommandRow& command = row_of(words.command);
   const std::string named = fmt::format("name a file: {}", command.example);
   if (count > 1) refuse("`-` is given twice", "standard input has one tree");
+  if (words.command == Command::Fmt && words.inputs.size() > 1) {
+    refuse("`-` goes with no other file", "btcheck fmt - <FILE >FORMATTED");
+  }
   if (command.argument != ArgumentKind::Tree &&
+      command.argument != ArgumentKind::Files &&
       command.argument != ArgumentKind::Trees) {
     refuse(fmt::format("{} does not read standard input", command.word), named);
   }
@@ -528,6 +544,7 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_view(words, options);
   settle_recorded(words, options);
   settle_conform(words, options);
+  settle_formatting(words, options);
   settle_from(words, options);
   settle_topic(words, options);
   settle_against(words, options);

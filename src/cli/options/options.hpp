@@ -44,7 +44,8 @@ enum class Command : std::uint8_t {
   Answer,
   Serve,
   Mcp,
-  Lsp
+  Lsp,
+  Fmt
 };
 
 // The tree that `btcheck -` reads.
@@ -97,6 +98,16 @@ struct ExecutionPlan {
 
 // What `leaves` writes; in the order of --to in tables.cpp.
 enum class LeafForm : std::uint8_t { Models, Contracts };
+
+// What `fmt` does with files that are in another style.
+struct FormattingPlan {
+  bool checks = false;     // --check: lists them
+  bool shows = false;      // --diff: shows what would change
+  bool verifies = false;   // --verify
+  std::string stdin_name;  // --stdin-name; "" for none
+
+  bool writes() const { return !checks && !shows; }
+};
 
 // How `space` tells its figures.
 enum class StatisticsFormat : std::uint8_t { Table, Json };
@@ -156,8 +167,9 @@ struct Options {
   std::optional<int> from_tick;
   std::string topic;    // --topic, of a recording of ROS 2; "": the only one
   std::string learned;  // conform: --learn-leaves; "" for none
-  bool tells_coverage = false;        // conform: --coverage
-  std::string output;                 // -o; "" for standard output
+  bool tells_coverage = false;  // conform: --coverage
+  std::string output;           // -o; "" for standard output
+  FormattingPlan formatting;
   std::optional<LeafForm> leaf_form;  // leaves: --to; else by the name of -o
   std::optional<GraphFormat> graph;   // space: --export
   std::string graph_file;             // "" for standard output

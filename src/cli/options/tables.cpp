@@ -175,6 +175,18 @@ constexpr CommandRow kCommands[] = {
          "the answers as contracts of leaves, in the file of --leaves or in "
          "answers.leaves. What fits an answer is not asked again, in no tree "
          "of the project; what does not is a warning."},
+    {.command = Fmt,
+     .word = "fmt",
+     .argument = ArgumentKind::Files,
+     .shown = "FOLDER|FILE...",
+     .missing = "no folder and no file",
+     .example = "btcheck fmt FOLDER",
+     .summary = "write trees, contracts and rules in one style",
+     .description =
+         "Formats XML of BehaviorTree.CPP, .btf, leaf contracts and rules, and "
+         "names the files that it has changed. Blanks, line breaks and the "
+         "order of attributes change; comments, values and what is checked do "
+         "not. `-` formats standard input to standard output."},
     {.command = Serve,
      .word = "serve",
      .summary = "a process that stays, for editors and other programs",
@@ -224,21 +236,22 @@ constexpr CommandSet kReadsModels = {Check,  Batch,          Lint, Space,
 constexpr CommandSet kReadsBtf = {Check,    Batch, Lint,    Space, Export,
                                   Simulate, Init,  Conform, Run};
 constexpr CommandSet kHasSettings = {
-    Check,   Batch, Lint,   Space,           Export, Simulate, Init,
-    Conform, Run,   Leaves, Command::Answer, Serve,  Mcp,      Lsp};
+    Check,  Batch,           Lint,  Space, Export, Simulate, Init, Conform, Run,
+    Leaves, Command::Answer, Serve, Mcp,   Lsp,    Fmt};
 constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space,
                                   Demo,  Init,  Command::Answer};
 constexpr CommandSet kCountsStates = {
     Check, Batch, Space, Demo, Init, Conform, Command::Answer, Serve, Mcp, Lsp};
 constexpr CommandSet kLimited = {
-    Check, Batch, Lint,    Space,  Export,          Trace, Demo, Simulate,
-    Init,  Run,   Conform, Leaves, Command::Answer, Serve, Mcp,  Lsp};
+    Check,    Batch, Lint, Space,   Export, Trace,           Demo,
+    Simulate, Init,  Run,  Conform, Leaves, Command::Answer, Serve,
+    Mcp,      Lsp,   Fmt};
 constexpr CommandSet kEvery = {
     Check,    Batch,       Lint, Space,  Export,          Trace,
     Simulate, Explain,     Demo, Init,   Conform,         Run,
     Monitor,  Completions, Man,  Leaves, Command::Answer, Serve,
-    Mcp,      Lsp};
+    Mcp,      Lsp,         Fmt};
 
 constexpr std::string_view kProfileNames =
     "paper btcpp-3.5.1 btcpp-3.5 btcpp-3.6 btcpp-3.7 btcpp-3.8 btcpp-4.0 "
@@ -711,6 +724,30 @@ constexpr OptionRow kOptions[] = {
      .commands = {Batch},
      .first = {Batch},
      .example = "btcheck batch FOLDER --report report.html"},
+    {.name = "--check",
+     .help = "change nothing: list the files that are in another style, exit "
+             "code 1",
+     .commands = {Fmt},
+     .first = {Fmt},
+     .example = "btcheck fmt --check FOLDER"},
+    {.name = "--diff",
+     .help = "change nothing: show what would change, as a unified diff",
+     .commands = {Fmt},
+     .first = {Fmt},
+     .example = "btcheck fmt --diff FILE"},
+    {.name = "--verify",
+     .help = "read and lower each tree before and after, and leave it as it is "
+             "unless the networks are equal",
+     .commands = {Fmt},
+     .first = {Fmt},
+     .example = "btcheck fmt --verify FOLDER"},
+    {.name = "--stdin-name",
+     .value = "NAME",
+     .help = "what the file on standard input is called: its ending says of "
+             "which kind it is",
+     .commands = {Fmt},
+     .first = {Fmt},
+     .example = "btcheck fmt - --stdin-name TREE.xml <FILE >FORMATTED"},
     {.name = "--color",
      .value = "MODE",
      .choices = "auto always never",

@@ -21,6 +21,7 @@ enum class ArgumentKind : std::uint8_t {
   Tree,     // one tree, or one property file that names its tree
   Trees,    // several of them
   Batches,  // folders and manifests
+  Files,    // trees, rules, contracts and folders
   Run,      // one run or log
   Logs,     // logs of one tree, and perhaps the tree
   Code,     // perhaps the code of a diagnostic

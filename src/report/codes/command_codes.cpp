@@ -136,6 +136,18 @@ constexpr CodeRow kCommandCodes[] = {
      .example = {.tree = "(BehaviorTree :name t (Repeat :repeat 2 (Action :ID "
                          "a)))",
                  .command = "export tree.btf --to xml"}},
+    {.code = "BT0013",
+     .summary = "a file that `fmt` leaves as it is",
+     .description =
+         "In the style of `btcheck fmt` the file would say something else. As "
+         "a "
+         "rule a comment that allows findings stands in one line with several "
+         "nodes: with a line for each of them it would allow less.",
+     .help = "Put the comment into a line of its own, right above the node "
+             "that it is about.",
+     .example = {.body = "<Sequence><AlwaysSuccess/><AlwaysFailure/>"
+                         "</Sequence> <!-- btcheck: allow BT2208 -->",
+                 .command = "fmt --check tree.xml"}},
     {.code = "BT9001",
      .summary = "memory ran out",
      .description =
