@@ -13,6 +13,7 @@
 #include "lsp/features.hpp"
 #include "lsp/words.hpp"
 #include "report/codes/codes.hpp"
+#include "style/style.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck::lsp {
@@ -305,6 +306,27 @@ Json actions(const View& view, const Range& range) {
                                    {"arguments", arguments}}}});
   }
   return all;
+}
+
+Json formatted(const View& view) {
+  if (view.document.kind == FileKind::Other) return Json::null();
+  const std::string& before = view.document.text.text();
+  const auto after = styled({view.document.path, view.document.text});
+  if (!after.value) return Json::null();
+  Json edits = Json::array();
+  if (before == *after.value) return edits;
+  // What neither beginning nor end have in common, by whole lines.
+  const Shift shift(before, *after.value);
+  std::size_t begin = shift.part().begin;
+  while (begin > 0 && before[begin - 1] != '\n') --begin;
+  std::size_t end = shift.part().end;
+  while (end < before.size() && (end == 0 || before[end - 1] != '\n')) ++end;
+  const std::size_t kept = before.size() - end;
+  edits.push(text_edit(
+      view.range({begin, end}),
+      std::string_view(*after.value)
+          .substr(begin, after.value->size() - kept - begin)));
+  return edits;
 }
 
 }  // namespace btcheck::lsp

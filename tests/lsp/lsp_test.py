@@ -5,6 +5,7 @@ import json
 import os
 import random
 import shutil
+import subprocess
 import sys
 import tempfile
 import time
@@ -494,6 +495,27 @@ class Questions(Session):
                     kinds[data[i + 3]])
             for word, kind in wanted.items():
                 self.assertEqual(seen.get(word), kind, word)
+
+    def test_formatting(self):
+        editor = self.opened("patrol.xml", "patrol.ltl")
+        for name in self.files:
+            if name not in editor.texts:
+                editor.open(name)
+            if name.endswith(".xml"):
+                editor.replace(name, "  <BehaviorTree", "<BehaviorTree")
+            edits = editor.result("textDocument/formatting",
+                                  options={"tabSize": 2}, **editor.of(name))
+            editor.apply({"changes": {editor.uri(name): edits}})
+            with tempfile.TemporaryDirectory() as folder:
+                write(folder, name, editor.texts[name])
+                self.assertEqual(subprocess.run(
+                    [PROGRAM, "fmt", "--check", os.path.join(folder, name)],
+                    check=False).returncode, 0)
+            self.assertEqual(editor.result(
+                "textDocument/formatting", options={}, **editor.of(name)), [])
+        editor.replace("patrol.xml", "</Sequence>", "</Sequenz>")
+        self.assertIsNone(editor.result(
+            "textDocument/formatting", options={}, **editor.of("patrol.xml")))
 
     def test_lenses_hints_and_pages(self):
         editor = self.opened("patrol.xml", "patrol.ltl")

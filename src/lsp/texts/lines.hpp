@@ -76,9 +76,8 @@ class Shift {
   // Where a stretch of the text before stands now: nothing is left of one that
   // has been changed, but its place.
   TextStretch moved(TextStretch before) const;
-  bool is_changed(TextStretch before) const {
-    return before.begin < end_ && begin_ < before.end;
-  }
+  // That was changed, of the text before.
+  TextStretch part() const { return {begin_, end_}; }
 
  private:
   std::size_t moved(std::size_t at) const;
