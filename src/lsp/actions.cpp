@@ -322,10 +322,9 @@ Json formatted(const View& view) {
   std::size_t end = shift.part().end;
   while (end < before.size() && (end == 0 || before[end - 1] != '\n')) ++end;
   const std::size_t kept = before.size() - end;
-  edits.push(text_edit(
-      view.range({begin, end}),
-      std::string_view(*after.value)
-          .substr(begin, after.value->size() - kept - begin)));
+  edits.push(text_edit(view.range({begin, end}),
+                       std::string_view(*after.value)
+                           .substr(begin, after.value->size() - kept - begin)));
   return edits;
 }
 

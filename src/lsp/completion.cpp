@@ -9,7 +9,7 @@
 
 #include "lsp/features.hpp"
 #include "lsp/names.hpp"
-#include "lsp/rule_words.hpp"
+#include "lsp/texts/rule_words.hpp"
 #include "lsp/words.hpp"
 #include "model/btf/forms.hpp"
 #include "model/tree/node_types.hpp"

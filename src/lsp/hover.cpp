@@ -8,7 +8,7 @@
 
 #include "lsp/diagnostics.hpp"
 #include "lsp/features.hpp"
-#include "lsp/rule_words.hpp"
+#include "lsp/texts/rule_words.hpp"
 #include "lsp/words.hpp"
 #include "report/codes/codes.hpp"
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "lsp/rule_words.hpp"
+#include "lsp/texts/rule_words.hpp"
 #include "model/btf/forms.hpp"
 #include "text/utf8.hpp"
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "lsp/features.hpp"
-#include "lsp/rule_words.hpp"
+#include "lsp/texts/rule_words.hpp"
 #include "lsp/words.hpp"
 #include "ltl/rules/parser.hpp"
 #include "model/btf/forms.hpp"

@@ -79,7 +79,8 @@ TypeWord word_of(const NodeTypeRow& row, Profile profile) {
   word.about = about_type(row, profile);
   const int first = btcpp::first_release(row.id);
   if (first > 0) {
-    word.since = fmt::format("from BehaviorTree.CPP {} on", release_text(first));
+    word.since =
+        fmt::format("from BehaviorTree.CPP {} on", release_text(first));
   }
   const bool is_nav2 = btcpp::nav2_type(row.id) == &row;
   if (is_nav2) {
@@ -88,9 +89,9 @@ TypeWord word_of(const NodeTypeRow& row, Profile profile) {
   }
   for (const PortRow& port : row.ports) {
     PortWord each = word_of(port);
-    each.in = is_nav2 ? branches_text(
-                            btcpp::branches_with_port(row.id, port.name))
-                      : releases_text(port.in);
+    each.in = is_nav2
+                  ? branches_text(btcpp::branches_with_port(row.id, port.name))
+                  : releases_text(port.in);
     each.is_there = port.in.has(engine_release(profile));
     word.ports.push_back(std::move(each));
   }

@@ -544,7 +544,7 @@ void Workbench::check_loop() {
     });
     checking_ = std::make_shared<CheckMonitor>(
         *this, fs::path(subject->tree).filename().string(), takes_.progress);
-      auto monitor = checking_;
+    auto monitor = checking_;
     const Texts texts = texts_now();
     const std::uint64_t edit = edits_;
     const Look before = looks_.at(*subject);

@@ -211,6 +211,7 @@ bool has_a_clock(const SourceFile& source) {
   return source.path.rfind("src/run/", 0) == 0 ||
          source.path.rfind("src/api/", 0) == 0 ||
          source.path.rfind("src/serve/", 0) == 0 ||
+         source.path.rfind("src/lsp/", 0) == 0 ||
          source.path.rfind("src/btcheck/", 0) == 0;
 }
 
@@ -240,7 +241,7 @@ TEST_CASE("only the command line speaks of options") {
     const std::string room =
         source.path.substr(4, source.path.find('/', 4) - 4);
     const bool may_speak = room == "cli" || room == "batch" || room == "pins" ||
-                           room == "serve" ||
+                           room == "serve" || room == "lsp" ||
                            source.path.starts_with("src/report/codes/") ||
                            source.path.starts_with("src/check/export/ltsmin") ||
                            source.path == "src/text/choice.cpp";

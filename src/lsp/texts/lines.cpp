@@ -91,14 +91,16 @@ Shift::Shift(std::string_view before, std::string_view after) {
   new_end_ = after.size() - behind;
 }
 
-std::size_t Shift::moved(std::size_t at) const {
-  if (at <= begin_) return at;
-  return at >= end_ ? at - end_ + new_end_ : std::min(at, new_end_);
-}
-
+// What is put in before a stretch is not in it, nor what is put in behind.
 TextStretch Shift::moved(TextStretch before) const {
-  const std::size_t begin = moved(before.begin);
-  return {begin, std::max(begin, moved(before.end))};
+  const auto behind = [&](std::size_t at) {
+    return at >= end_ ? at - end_ + new_end_ : std::min(at, new_end_);
+  };
+  const std::size_t begin =
+      before.begin < begin_ ? before.begin : behind(before.begin);
+  const std::size_t end =
+      before.end <= begin_ ? before.end : behind(before.end);
+  return {begin, std::max(begin, end)};
 }
 
 // --- As JSON ----------------------------------------------------------------

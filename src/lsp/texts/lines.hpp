@@ -80,8 +80,6 @@ class Shift {
   TextStretch part() const { return {begin_, end_}; }
 
  private:
-  std::size_t moved(std::size_t at) const;
-
   std::size_t begin_ = 0;
   std::size_t end_ = 0;  // of the part before
   std::size_t new_end_ = 0;

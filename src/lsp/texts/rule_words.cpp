@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lsp/rule_words.hpp"
+#include "lsp/texts/rule_words.hpp"
 
 #include <fmt/format.h>
 
