@@ -5,8 +5,9 @@
     bench/lsp.py PROGRAM [--seconds N] [--rate N] [--edits N]
 
 Prints, in milliseconds from an edit on: what reading tells of the new text
-(lint), and what its search finds. `--edits N` makes N edits as fast as the
-server takes them and prints the memory before and after.
+(lint), and what its search finds. Between the edits everything else that an
+editor asks is asked in turn. `--edits N` makes N edits as fast as the server
+takes them and prints the memory before and after.
 """
 import argparse
 import os
@@ -37,6 +38,24 @@ def workspace(folder):
             shutil.copy(os.path.join(base, name), to)
             count += 1
     return count
+
+
+QUESTIONS = [
+    "hover", "completion", "definition", "references", "documentHighlight",
+    "prepareRename", "rename", "codeAction", "codeLens", "inlayHint",
+    "documentSymbol", "foldingRange", "selectionRange", "formatting",
+    "semanticTokens/full"]
+
+
+def ask(editor, name, question):
+    text = editor.texts[name]
+    place = editor.position(name, text.index("{path}") + 2)
+    whole = {"start": {"line": 0, "character": 0},
+             "end": editor.position(name, len(text))}
+    return editor.begin(
+        "textDocument/" + question, **editor.of(name), position=place,
+        range=whole, positions=[place], newName="way", options={"tabSize": 2},
+        context={"includeDeclaration": True, "diagnostics": []})
 
 
 def figures(name, values):
@@ -71,7 +90,7 @@ def main():
             if asked.edits:
                 many(editor, name, asked.edits)
                 return
-            lint, found = [], []
+            lint, found, asked_for = [], [], {}
             number = 0
             end = time.monotonic() + asked.seconds
             while time.monotonic() < end:
@@ -85,10 +104,20 @@ def main():
                 editor.change(name, at, stop, f"RecoveryActions{number}")
                 version = editor.versions[name]
                 seen_lint = seen_found = None
+                question = QUESTIONS[number % len(QUESTIONS)]
+                asking = None
                 until = begun + 1 / asked.rate
                 while time.monotonic() < until:
                     count = len(editor.history)
+                    if asking is None and seen_lint:
+                        asking = time.monotonic(), ask(editor, name, question)
                     editor.take(until - time.monotonic())
+                    if asking and asking[1] in editor.answers:
+                        assert "result" in editor.answers[asking[1]]
+                        asked_for[question] = max(
+                            asked_for.get(question, 0),
+                            (time.monotonic() - asking[0]) * 1000)
+                        editor.answers.clear()
                     for when, uri, told, said in editor.history[count:]:
                         if uri != editor.uri(name) or told != version:
                             continue
@@ -104,6 +133,9 @@ def main():
             print(f"{number} edits, {asked.rate} a second")
             print(figures("edit to lint", lint))
             print(figures("edit to findings", found))
+            print("the longest of each question, in ms: " + ", ".join(
+                f"{name} {value:.0f}"
+                for name, value in sorted(asked_for.items())))
             print(f"memory {memory(editor):.1f} MiB")
 
 

@@ -410,6 +410,20 @@ Json complete_rules(const View& view, std::size_t at, bool takes_snippets) {
 // --- .btf and contracts
 // -----------------------------------------------------------
 
+// Those that the file defines: (defun charge (level) ...).
+void add_functions(const View& view, Items& items) {
+  const auto parsed = view.document.text.parsed<btf::ParsedForms>();
+  const btf::Forms& forms = parsed->forms;
+  for (const btf::FormId id : forms.top_level) {
+    const btf::Form* head = forms.head(id);
+    if (head == nullptr || forms[id].items.size() < 2 ||
+        !equal_ignoring_case(head->text, "defun")) {
+      continue;
+    }
+    items.add(forms[forms[id].items[1]].text, items_of::kFunction, "defun");
+  }
+}
+
 Json complete_forms(const View& view, std::size_t at, bool takes_snippets) {
   const std::string_view text = view.document.text.text();
   std::size_t begin = at;
@@ -435,6 +449,7 @@ Json complete_forms(const View& view, std::size_t at, bool takes_snippets) {
     for (const std::string& each : btf::definition_words()) {
       items.add(each, items_of::kKeyword, {});
     }
+    add_functions(view, items);
     for (const NodeTypeInfo& info : kNodeTypes) {
       if (has(info.in, In::Btf)) {
         items.add(info.name, items_of::kClass, {}, info.about);
