@@ -16,6 +16,7 @@
 #include "cli/options/roots.hpp"
 #include "lsp/diagnostics.hpp"
 #include "lsp/features.hpp"
+#include "model/tree/tree.hpp"
 #include "project/content.hpp"
 #include "serve/asked.hpp"
 
@@ -282,8 +283,19 @@ void Workbench::change_files(const JsonValue& params) {
 // --- What is known -----------------------------------------------------------
 
 bool Workbench::concerns(const Look& look, const std::string& path) const {
-  return look.subject.tree == path || look.subject.rules == path ||
-         kind_of(path, {}) != FileKind::Xml || has_node_in(look, path);
+  if (look.subject.tree == path || look.subject.rules == path) return true;
+  switch (kind_of(path, {})) {
+    case FileKind::Xml:
+      return has_node_in(look, path);
+    case FileKind::Leaves:
+      return true;
+    case FileKind::Rules:
+    case FileKind::Btf:
+      return false;
+    case FileKind::Other:
+      break;
+  }
+  return path.ends_with(".toml");
 }
 
 void Workbench::edited(const std::string& path, bool concerns_others) {
@@ -291,10 +303,14 @@ void Workbench::edited(const std::string& path, bool concerns_others) {
   edited_at_ = Clock::now();
   texts_.reset();
   if (documents_.find(path) != nullptr) untold_.insert(path);
+  bool is_concerned = concerns_others;
   for (auto& [subject, look] : looks_) {
-    if (concerns_others || concerns(look, path)) look.needed = edits_;
+    if (!concerns_others && !concerns(look, path)) continue;
+    look.needed = edits_;
+    is_concerned = true;
   }
-  if (checking_) checking_->cancel();
+  // What is edited has the next check, whatever the one under way is about.
+  if (checking_ && is_concerned) checking_->cancel();
   if (concerns_others) find_subjects();
   // What is edited comes first.
   const auto own = subjects_.find(path);
@@ -378,7 +394,11 @@ v1::Request Workbench::request_of(const Subject& subject) const {
   request.tree = subject.tree;
   request.main_tree = subject.main_tree;
   if (!subject.rules.empty()) request.rules = {subject.rules};
-  request.profile = wishes_.profile;
+  // A tree of the other language has nothing to do with it.
+  const bool is_btf = subject.tree.ends_with(".btf");
+  if (is_btf == (wishes_.profile == profile_name(Profile::Paper))) {
+    request.profile = wishes_.profile;
+  }
   request.tries_repairs = wishes_.tries_repairs;
   request.seconds = wishes_.seconds;
   if (options_.timeout > 0 && options_.timeout < request.seconds) {

@@ -79,10 +79,15 @@ void Workspace::read(const std::vector<std::string>& folders) {
 
 bool Workspace::put(const std::string& path, const FileText& text) {
   const auto known = files_.find(path);
-  if (kind_of(path, text.text()) != FileKind::Xml) {
-    const bool is_new = known == files_.end() || !(known->second == text);
+  const FileKind kind = kind_of(path, text.text());
+  if (kind == FileKind::Other) return false;
+  if (kind != FileKind::Xml) {
+    const bool is_new = known == files_.end();
+    const bool is_other = is_new || !(known->second == text);
+    const std::string tree = kind == FileKind::Rules ? tree_of(path) : "";
     files_[path] = text;
-    return is_new;
+    if (kind == FileKind::Leaves) return is_other;
+    return is_new || (kind == FileKind::Rules && tree_of(path) != tree);
   }
   const FileText old = known == files_.end() ? FileText() : known->second;
   const auto before =

@@ -78,6 +78,10 @@ bool Server::run() {
 // What was asked for is answered, as long as somebody listens.
 void Server::drain() {
   std::unique_lock lock(mutex_);
+  // Who has told of what is not asked for has no use for it any more.
+  if (is_ended_ && !protocol_.notices.empty()) {
+    for (const auto& [id, work] : at_work_) work->cancel();
+  }
   while (!at_work_.empty() || !waiting_.empty()) {
     changed_.wait_for(lock, kLookInterval);
     if (wire_.is_heard()) continue;
@@ -100,6 +104,7 @@ bool Server::take(const Wire::Received& received) {
     } else if (message.method == protocol_.cancel) {
       cancel(message.params);
     } else if (message.method == protocol_.end) {
+      is_ended_ = true;
       return false;
     } else {
       take_notice(std::move(message));

@@ -125,6 +125,7 @@ class Server {
   std::uint64_t count_ = 0;
   std::uint64_t in_turn_ = UINT64_MAX;  // that is worked on in its turn, if any
   bool is_over_ = false;
+  bool is_ended_ = false;  // by the other side, which has said so
 };
 
 }  // namespace btcheck
