@@ -74,7 +74,7 @@ class Formatter {
   template <class T>
   std::optional<T> taken(Result<T> result) {
     show(options_, result.diagnostics);
-    has_failed_ = has_failed_ || !result.value;
+    has_failed_ = has_failed_ || has_error(result.diagnostics);
     return std::move(result.value);
   }
   void fail(std::vector<Diagnostic> found) {

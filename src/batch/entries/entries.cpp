@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "cli/inputs/file_sources.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
+#include "cli/inputs/looked_at.hpp"
 #include "cli/settings/choices.hpp"
 #include "ltl/rules/property.hpp"
 #include "model/foreign_format.hpp"
@@ -117,7 +117,7 @@ class FolderSearch {
   }
 
   std::vector<BatchEntry> search() {
-    if (auto problem = collect()) return {std::move(*problem)};
+    collect();
     for (const std::string& name : properties_) add_pair(name);
     for (const std::string& tree : trees_) {
       if (!asked_of_.contains(tree)) entries_.push_back(of(tree, tree));
@@ -135,15 +135,13 @@ class FolderSearch {
   }
 
  private:
-  // Or the folder that cannot be read.
-  std::optional<BatchEntry> collect() {
+  // The files, folder by folder, and folders that cannot be read.
+  void collect() {
     const auto found = files_in(folder_.string(), excluded_, settings_);
-    if (!found.value) {
-      const Diagnostic& fault = found.diagnostics.front();
-      return refused(fault.file, fault.code, fault.message);
+    for (const Diagnostic& fault : found.diagnostics) {
+      entries_.push_back(refused(fault.file, fault.code, fault.message));
     }
     for (const std::string& name : *found.value) take(name);
-    return std::nullopt;
   }
 
   void take(const std::string& name) {
@@ -370,6 +368,7 @@ Result<std::vector<std::string>> files_in(const std::string& folder,
                                           const std::set<std::string>& exclude,
                                           const Excludes& settings) {
   std::vector<std::string> files;
+  std::vector<Diagnostic> faults;
   std::vector<fs::path> folders = {fs::path(folder).lexically_normal()};
   const auto take = [&](const fs::directory_entry& found) {
     const fs::path path = found.path().lexically_normal();
@@ -388,19 +387,19 @@ Result<std::vector<std::string>> files_in(const std::string& folder,
   while (!folders.empty()) {
     const fs::path next = std::move(folders.back());
     folders.pop_back();
+    LookedAt::note_folder(next.string());
     std::error_code fault;
     fs::directory_iterator at(next, fault);
     for (; !fault && at != fs::directory_iterator(); at.increment(fault)) {
       take(*at);
     }
     if (!fault) continue;
-    return {std::nullopt,
-            {file_error("BT0002", next.string(),
-                        fmt::format("cannot read the folder `{}`: {}",
-                                    next.string(), fault.message()))}};
+    faults.push_back(file_error("BT0002", next.string(),
+                                fmt::format("cannot read the folder `{}`: {}",
+                                            next.string(), fault.message())));
   }
   std::ranges::sort(files);
-  return {std::move(files), {}};
+  return {std::move(files), std::move(faults)};
 }
 
 std::vector<BatchEntry> entries_in(const std::string& folder,

@@ -57,7 +57,7 @@ std::vector<BatchEntry> entries_in(const std::string& folder,
                                    std::vector<std::string> roots = {});
 
 // The files in a folder and all folders below it, ascending, with the same left
-// out. Without a value a folder cannot be read.
+// out; beside them an error for each folder that cannot be read.
 Result<std::vector<std::string>> files_in(
     const std::string& folder, const std::set<std::string>& exclude = {},
     const Excludes& settings = {});

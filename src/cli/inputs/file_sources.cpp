@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cli/inputs/files.hpp"
+#include "cli/inputs/looked_at.hpp"
 #include "model/tree_file.hpp"
 
 namespace btcheck {
@@ -39,6 +40,9 @@ void add_file(XmlProject& project, const std::vector<std::string>& roots,
       fs::file_size(name, fault) > kMostBytes) {
     return;
   }
+  // Any file of the folder may be of the project; whoever uses one says so.
+  LookedAt::note_folder(fs::path(name).parent_path().string());
+  const LookingOn aside;
   auto read = read_file_in(roots, name);
   if (read.value) project.add(name, std::move(read.value->text));
 }
@@ -47,6 +51,7 @@ void add_beside(XmlProject& project, const std::vector<std::string>& roots,
                 const std::string& file) {
   const fs::path folder = fs::path(file).parent_path();
   std::vector<std::string> names;
+  LookedAt::note_folder(folder.string());
   std::error_code fault;
   fs::directory_iterator at(folder.empty() ? "." : folder, fault);
   for (; !fault && at != fs::directory_iterator(); at.increment(fault)) {
@@ -110,7 +115,9 @@ const XmlProject& FileSources::project() const {
 Result<InputFile> FileSources::text(const std::string& name) {
   for (const XmlProject* files : {&project(), &std::as_const(around_)}) {
     const InputFile* known = files->read_file(name);
-    if (known != nullptr) return {*known, {}};
+    if (known == nullptr) continue;
+    LookedAt::note_file(name);
+    return {*known, {}};
   }
   for (const std::string& folder : installed_) {
     const std::string inside = fs::path(name).lexically_relative(folder);
@@ -144,6 +151,7 @@ NearestFile FileSources::with_tree(std::string_view tree,
     }
     near = around_.with_tree(tree, from);
   }
+  if (near.file != nullptr) LookedAt::note_file(near.file->file.name);
   return near;
 }
 

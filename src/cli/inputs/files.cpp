@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "cli/console/writing.hpp"
+#include "cli/inputs/looked_at.hpp"
 #include "cli/options/options.hpp"
 #include "text/utf8.hpp"
 
@@ -49,7 +50,8 @@ enum class Place : std::uint8_t { Outside, Hidden, Inside };
 Place place_in(const std::filesystem::path& root,
                const std::filesystem::path& file) {
   std::error_code fault;
-  const auto folder = std::filesystem::weakly_canonical(root, fault);
+  const auto folder = std::filesystem::weakly_canonical(
+      std::filesystem::absolute(root, fault), fault);
   // Of what does not exist a relative name would stay one.
   const auto place = std::filesystem::weakly_canonical(
       std::filesystem::absolute(file, fault), fault);
@@ -113,6 +115,7 @@ bool is_given(const std::string& name) {
 }
 
 Result<InputFile> read_file(const std::string& name) {
+  if (!is_given(name)) LookedAt::note_file(name);
   if (unbroken(name) != name) {
     return refused(name, fmt::format("`{}` has a line break in its name", name),
                    "give the file or its folder another name");

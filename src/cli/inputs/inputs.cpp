@@ -14,6 +14,7 @@
 #include "cli/console/console.hpp"
 #include "cli/inputs/file_sources.hpp"
 #include "cli/inputs/files.hpp"
+#include "cli/inputs/looked_at.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/options/roots.hpp"
 #include "cli/settings/baseline.hpp"
@@ -101,12 +102,21 @@ std::string settings_file(const Options& options, const std::string& tree) {
   }
   const fs::path here = current_directory();
   const fs::path named = is_given(tree) ? fs::path("tree") : fs::path(tree);
-  const fs::path folder =
-      surroundings_of((here / named).lexically_normal().parent_path()).settings;
-  if (folder.empty()) return {};
-  const fs::path file = folder / kSettingsFile;
-  return named.is_absolute() ? file.string()
-                             : file.lexically_relative(here).string();
+  const fs::path from = (here / named).lexically_normal().parent_path();
+  const Surroundings around = surroundings_of(from);
+  const auto shown = [&](const fs::path& file) {
+    return named.is_absolute() ? file.string()
+                               : file.lexically_relative(here).string();
+  };
+  // One that comes to lie nearer to the tree counts from then on.
+  for (fs::path folder = from;; folder = folder.parent_path()) {
+    LookedAt::note_file(shown(folder / kSettingsFile));
+    if (folder == around.settings || folder == around.repository ||
+        !folder.has_relative_path()) {
+      break;
+    }
+  }
+  return around.settings.empty() ? "" : shown(around.settings / kSettingsFile);
 }
 
 Excludes excludes_of(const Options& options, const std::string& folder) {
@@ -146,8 +156,9 @@ namespace {
 Result<InputFile> read_once(const Options& options, const std::string& name) {
   const InputFile* known =
       options.project == nullptr ? nullptr : options.project->read_file(name);
-  if (known != nullptr) return {*known, {}};
-  return read_file_in(options.roots, name);
+  if (known == nullptr) return read_file_in(options.roots, name);
+  LookedAt::note_file(name);
+  return {*known, {}};
 }
 
 // `inputs` has the files of rules, where there are any.
@@ -163,6 +174,9 @@ std::optional<Inputs> with_tree(InputFile tree, Inputs inputs,
   FileSources sources(tree, *all);
   auto reading = reading_of(tree, reading_choices(*all), sources, found);
   if (!reading) return std::nullopt;
+  for (const InputFile& file : reading->neighbours) {
+    LookedAt::note_file(file.name);
+  }
   inputs.tree = {std::move(tree), std::move(*reading)};
   inputs.options = std::move(*all);
   return inputs;
@@ -239,7 +253,8 @@ bool wants_color(const Options& options, int descriptor) {
          ::isatty(descriptor) != 0 && !is_dumb_terminal();
 }
 
-// Warnings and notes that say the same become one, which names the other lines.
+}  // namespace
+
 std::vector<Diagnostic> without_repetitions(
     const std::vector<Diagnostic>& diagnostics) {
   std::vector<Diagnostic> distinct;
@@ -262,8 +277,6 @@ std::vector<Diagnostic> without_repetitions(
   }
   return distinct;
 }
-
-}  // namespace
 
 std::string shown(const std::vector<Diagnostic>& diagnostics) {
   std::string text;

@@ -80,6 +80,10 @@ bool take_baseline(Options& options);
 // Those that differ by their line only are shown as one.
 void show(const Options& options, const std::vector<Diagnostic>& diagnostics);
 
+// Warnings and notes that say the same become one, which names the other lines.
+std::vector<Diagnostic> without_repetitions(
+    const std::vector<Diagnostic>& diagnostics);
+
 // The same as a text.
 std::string shown(const std::vector<Diagnostic>& diagnostics);
 
