@@ -98,14 +98,14 @@ class LiveOutput {
   std::size_t hidden_ = 0;
 };
 
-// The options of each of several entries checked at a time.
+}  // namespace
+
 Options shared_out(Options options) {
   const unsigned jobs = options.batch.jobs;
   options.max_bytes = std::max<std::uint64_t>(1, memory_limit(options) / jobs);
   return options;
 }
 
-// Found out before anything is checked, not after.
 bool can_write(const Options& options) {
   std::string obstacle = obstacle_to(options);
   if (obstacle.empty() && !options.batch.page.empty()) {
@@ -121,6 +121,8 @@ bool can_write(const Options& options) {
   if (!obstacle.empty()) complain("BT0004", obstacle);
   return obstacle.empty() && can_use_disk(options);
 }
+
+namespace {
 
 // Whether the folder to be joined is there. Complains when it is not.
 bool can_join(const BatchOptions& batch) {

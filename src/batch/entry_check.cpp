@@ -59,7 +59,9 @@ void expect(CheckResult& result, const std::vector<ExpectedVerdict>& expected) {
 
 // Where the runs of an entry go; "" for nowhere.
 std::string trace_dir(const BatchEntry& entry, const Options& options) {
-  if (options.trace_dir.empty()) return {};
+  if (options.trace_dir.empty() || entry.folder.empty()) {
+    return options.trace_dir;
+  }
   return fmt::format("{}/{}", options.trace_dir, entry.folder);
 }
 

@@ -72,6 +72,7 @@ std::optional<EntryResult> known_result(const BatchEntry& entry,
 // that was broken off.
 std::optional<EntryResult> found_result(const BatchEntry& entry,
                                         const Options& all, KeptResults& kept,
+                                        const LookingOn& looking,
                                         const KeyListener& tell_key) {
   using enum EntryResult::Origin;
   if (has_error(entry.diagnostics)) {
@@ -88,7 +89,7 @@ std::optional<EntryResult> found_result(const BatchEntry& entry,
   }
   const Options& options = inputs->options;
   const std::string key = key_of(entry, *inputs, options);
-  tell_key(key);
+  tell_key(key, looking.seen());
   bool is_damaged = false;
   if (auto known = known_result(entry, key, kept, is_damaged)) return known;
   EntryMonitor monitor(limits_of_command());
@@ -113,9 +114,12 @@ ReportedTree spent_tree(const BatchEntry& entry, const BudgetSpent& spent) {
 std::optional<EntryResult> result_of(const BatchEntry& entry,
                                      const Options& all, KeptResults& kept,
                                      const KeyListener& tell_key) {
+  const LookingOn looking;
   EntryResult failed;
   try {
-    return found_result(entry, all, kept, tell_key);
+    auto result = found_result(entry, all, kept, looking, tell_key);
+    if (result) result->looked_at = looking.seen();
+    return result;
   } catch (const BudgetSpent& spent) {
     if (InterruptWatch::is_interrupted()) return std::nullopt;
     failed.tree = spent_tree(entry, spent);
@@ -124,6 +128,7 @@ std::optional<EntryResult> result_of(const BatchEntry& entry,
   } catch (const std::exception& fault) {
     failed.tree = failed_tree(entry, ExitCode::Internal, fault.what());
   }
+  failed.looked_at = looking.seen();
   return failed;
 }
 
@@ -140,6 +145,10 @@ ReportedTree ended_tree(const BatchEntry& entry, int signal) {
                   : fmt::format("the check was ended by signal {}", signal));
 }
 
+std::string sent_head(const std::string& key, const LookedAt& looked_at) {
+  return key + '\n' + looked_at.text() + '\n';
+}
+
 std::string sent_text(const EntryResult& result) {
   return static_cast<char>(result.origin) + kept_text(result.tree);
 }
@@ -147,13 +156,18 @@ std::string sent_text(const EntryResult& result) {
 Received received(std::string_view text) {
   Received all;
   const std::size_t end = text.find('\n');
-  if (end == text.npos) return all;
+  const std::size_t end_of_head = text.find("\n\n");
+  if (end_of_head == text.npos) return all;
   all.key = text.substr(0, end);
-  text.remove_prefix(end + 1);
+  if (end < end_of_head) {
+    all.looked_at =
+        LookedAt::from_text(text.substr(end + 1, end_of_head - end));
+  }
+  text.remove_prefix(end_of_head + 2);
   if (text.empty()) return all;
   if (auto tree = tree_from(text.substr(1))) {
     all.result = EntryResult{static_cast<EntryResult::Origin>(text[0]),
-                             std::move(*tree)};
+                             std::move(*tree), all.looked_at};
   }
   return all;
 }

@@ -11,6 +11,7 @@
 
 #include "batch/entries/entries.hpp"
 #include "batch/results/kept_results.hpp"
+#include "cli/inputs/looked_at.hpp"
 #include "cli/options/options.hpp"
 #include "report/formats/reported.hpp"
 #include "text/budget.hpp"
@@ -28,11 +29,12 @@ struct EntryResult {
   };
   Origin origin = Origin::New;
   ReportedTree tree;
+  LookedAt looked_at = {};  // of files and folders, as far as it came
 };
 
 // Called with the key of an entry, where it has one, before anything is done
-// under it.
-using KeyListener = std::function<void(const std::string&)>;
+// under it; and with what was looked at to read it.
+using KeyListener = std::function<void(const std::string&, const LookedAt&)>;
 
 // Takes what is kept of an entry, or claims it, reads it and checks it. Nothing
 // for one that was broken off. Whatever is thrown on the way is a result, too.
@@ -47,13 +49,16 @@ ReportedTree spent_tree(const BatchEntry& entry, const BudgetSpent& spent);
 // is not 0.
 ReportedTree ended_tree(const BatchEntry& entry, int signal);
 
-// What a worker writes and the batch reads: the key, as soon as it is known,
-// and a line feed; the origin, and the tree.
+// What a worker writes and the batch reads: as soon as they are known, the key
+// and what was looked at, a line for each name, and an empty line; then the
+// origin, and the tree.
 struct Received {
   std::string key;  // "" of what cannot be read, and is not kept
+  LookedAt looked_at = {};
   std::optional<EntryResult> result;
 };
 
+std::string sent_head(const std::string& key, const LookedAt& looked_at);
 std::string sent_text(const EntryResult& result);
 Received received(std::string_view text);
 

@@ -77,9 +77,11 @@ std::string where(const ReportedTree& tree, const Place& place) {
   return place.span.line == 0 ? "" : fmt::format("line {}", place.span.line);
 }
 
+}  // namespace
+
 // "  warning[BT2208] line 50: `RecoveryActions` fails although `BackUp` …".
-std::string line_below(const ReportedTree& tree, const Finding& finding,
-                       std::size_t width) {
+std::string finding_line(const ReportedTree& tree, const Finding& finding,
+                         std::size_t width) {
   constexpr std::size_t kIndent = 2;
   std::string head =
       fmt::format("{}[{}]", severity_name(finding.severity), finding.code);
@@ -91,6 +93,8 @@ std::string line_below(const ReportedTree& tree, const Finding& finding,
   return std::string(kIndent, ' ') +
          wrapped(head + ": " + first, 2 * kIndent, width) + '\n';
 }
+
+namespace {
 
 // A word of a command line.
 std::string shell_word(const std::string& word) {
@@ -125,14 +129,14 @@ std::string findings_below(const ReportedTree& tree, Layout layout) {
   if (layout.detail == Detail::EveryStep) {
     for (const Finding& each : findings) {
       if (each.about == Finding::About::Input) continue;  // told before
-      text +=
-          each.told.empty() ? line_below(tree, each, layout.width) : each.told;
+      text += each.told.empty() ? finding_line(tree, each, layout.width)
+                                : each.told;
     }
     return text.empty() ? text : text + '\n';
   }
   const std::size_t count = std::min(findings.size(), kMostBelow);
   for (std::size_t i = 0; i < count; ++i) {
-    text += line_below(tree, findings[i], layout.width);
+    text += finding_line(tree, findings[i], layout.width);
   }
   if (count < findings.size()) {
     text += fmt::format("  {} more: {}\n", findings.size() - count,
@@ -142,6 +146,8 @@ std::string findings_below(const ReportedTree& tree, Layout layout) {
 }
 
 // --- After the last entry --------------------------------------------------
+
+}  // namespace
 
 std::string shortfall_text(const Shortfall& found, std::size_t width) {
   constexpr std::size_t kIndent = 11;
@@ -156,6 +162,8 @@ std::string shortfall_text(const Shortfall& found, std::size_t width) {
   if (!found.title.empty()) text += fmt::format("           {}\n", found.title);
   return text + found.told;
 }
+
+namespace {
 
 // Of an entry that was checked; stderr has what is wrong with the others.
 std::string shortfalls_text(const ReportedTree& tree, Layout layout) {

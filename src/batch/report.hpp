@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "report/formats/formats.hpp"
 #include "report/formats/reported.hpp"
 #include "trace/formats/text.hpp"
 
@@ -20,6 +21,12 @@ inline constexpr std::size_t kMostBelow = 5;
 std::string batch_heading();
 std::string batch_lines(const ReportedTree& tree, Layout layout);
 std::string batch_ending(const Report& report, Layout layout);
+
+// One finding as a line below its entry, and a rule that is not met as it is
+// told behind the last entry.
+std::string finding_line(const ReportedTree& tree, const Finding& finding,
+                         std::size_t width);
+std::string shortfall_text(const Shortfall& found, std::size_t width);
 
 // All of it.
 std::string batch_text(const Report& report, Layout layout);

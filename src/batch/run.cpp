@@ -48,6 +48,8 @@ class BatchProgress {
     tell();
   }
 
+  double begun(std::size_t entry) const { return running_.at(entry).since; }
+
   // Others work on it.
   void put_back(std::size_t entry) { running_.erase(entry); }
   void wait_for(std::size_t entries) { awaited_ = entries; }
@@ -131,11 +133,12 @@ class BatchRunner {
   using Listener = std::function<void(const ReportedTree&)>;
 
   BatchRunner(const Options& options, const std::vector<BatchEntry>& entries,
-              KeptResults& kept, Listener listener)
+              KeptResults& kept, Listener listener, BreakOff* break_off)
       : options_(options),
         entries_(entries),
         kept_(kept),
         listener_(std::move(listener)),
+        break_off_(break_off),
         progress_(progress_style(options), entries.size()),
         last_(entries.size()),
         queue_(order_of_work(entries, kept, options.batch.stops_early)),
@@ -184,16 +187,19 @@ class BatchRunner {
     const auto work = [this, entry](const OpenFile& to) {
       std::atomic<bool> has_key = false;
       const auto send = [&](const EntryResult& result) {
-        to.write((has_key ? "" : "\n") + sent_text(result));
+        to.write((has_key ? "" : sent_head("", result.looked_at)) +
+                 sent_text(result));
       };
       limits_of_command().restart();
       const Guard guard(limits_of_command(), [&](const BudgetSpent& spent) {
         if (InterruptWatch::is_interrupted()) return;
         send({EntryResult::Origin::New, spent_tree(entries_[entry], spent)});
       });
-      const auto result = result_of(
-          entries_[entry], options_, kept_,
-          [&](const std::string& key) { has_key = to.write(key + '\n'); });
+      const auto result =
+          result_of(entries_[entry], options_, kept_,
+                    [&](const std::string& key, const LookedAt& looked_at) {
+                      has_key = to.write(sent_head(key, looked_at));
+                    });
       if (result) send(*result);
     };
     try {
@@ -203,8 +209,9 @@ class BatchRunner {
       if (!workers_.empty()) return false;
       // No process at all is to be had: here, then.
       Received here;
-      here.result = result_of(entries_[entry], options_, kept_,
-                              [&](const std::string& key) { here.key = key; });
+      here.result = result_of(
+          entries_[entry], options_, kept_,
+          [&](const std::string& key, const LookedAt&) { here.key = key; });
       settle(entry, std::move(here), 0);
     }
     return true;
@@ -217,14 +224,39 @@ class BatchRunner {
     for (const auto& worker : workers_) {
       files.push_back({worker->output(), POLLIN, 0});
     }
+    if (break_off_ != nullptr && !is_broken_off_) {
+      files.push_back({break_off_->number(), POLLIN, 0});
+    }
     progress_.tell();
+    tell_of_slow();
     if (::poll(files.data(), files.size(), kMilliseconds) <= 0) return;
+    if (files.size() > workers_.size()) {
+      is_broken_off_ = files.back().revents != 0 && break_off_->is_wanted();
+      files.pop_back();
+    }
     for (std::size_t i = files.size(); i-- > 0;) {
       if (files[i].revents == 0 || workers_[i]->read()) continue;
       const auto worker = std::move(workers_[i]);
       workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
       const int signal = worker->end();
       settle(worker->entry(), received(worker->text()), signal);
+    }
+  }
+
+  // What is looked at for longer than a moment may change meanwhile.
+  void tell_of_slow() {
+    constexpr double kMoment = 0.25;
+    if (break_off_ == nullptr) return;
+    for (const auto& worker : workers_) {
+      const std::size_t entry = worker->entry();
+      if (told_of_.contains(entry) ||
+          worker->text().find("\n\n") == std::string::npos ||
+          progress_.seconds() - progress_.begun(entry) < kMoment) {
+        continue;
+      }
+      told_of_.insert(entry);
+      break_off_->looks_at(entries_[entry].name,
+                           received(worker->text()).looked_at);
     }
   }
 
@@ -248,6 +280,7 @@ class BatchRunner {
     }
     progress_.end(entry);
     if (found.result->origin == Missing) missing_.insert(entry);
+    all_.looked_at[entries_[entry].name] = std::move(found.result->looked_at);
     take_over(found.key, *found.result);
     finish(entry, std::move(found.result->tree));
   }
@@ -284,7 +317,7 @@ class BatchRunner {
   }
 
   bool is_cancelled(std::size_t entry) const {
-    return entry > last_ || InterruptWatch::is_interrupted();
+    return entry > last_ || is_broken_off_ || InterruptWatch::is_interrupted();
   }
 
   // For what others have in hand; where nobody is to wait, for what they may
@@ -340,6 +373,9 @@ class BatchRunner {
   const std::vector<BatchEntry>& entries_;
   KeptResults& kept_;
   Listener listener_;
+  BreakOff* break_off_;
+  bool is_broken_off_ = false;
+  std::set<std::size_t> told_of_;  // entries that take long
   BatchProgress progress_;
   std::size_t last_;               // no entry behind this one is run
   std::deque<std::size_t> queue_;  // to be begun
@@ -355,8 +391,10 @@ class BatchRunner {
 
 BatchRun run_entries(const Options& options,
                      const std::vector<BatchEntry>& entries, KeptResults& kept,
-                     std::function<void(const ReportedTree&)> listener) {
-  return BatchRunner(options, entries, kept, std::move(listener)).run();
+                     std::function<void(const ReportedTree&)> listener,
+                     BreakOff* break_off) {
+  return BatchRunner(options, entries, kept, std::move(listener), break_off)
+      .run();
 }
 
 }  // namespace btcheck

@@ -13,6 +13,7 @@
 #include "batch/results/kept_results.hpp"
 #include "check/check.hpp"
 #include "cli/inputs/inputs.hpp"
+#include "cli/inputs/looked_at.hpp"
 #include "cli/options/options.hpp"
 #include "report/formats/reported.hpp"
 
@@ -24,6 +25,18 @@ struct BatchRun {
   double seconds = 0;
   // The names of entries that there is no result of, by the reason.
   std::map<std::string, std::vector<std::string>> missing;
+  std::map<std::string, LookedAt> looked_at;  // by the names of entries
+};
+
+// What breaks a batch off before its end, other than an interrupt.
+class BreakOff {
+ public:
+  virtual ~BreakOff() = default;
+  // For poll(2): when to ask.
+  virtual int number() const = 0;
+  virtual bool is_wanted() = 0;
+  // What has been looked at for an entry that takes longer than a moment.
+  virtual void looks_at(const std::string& entry, const LookedAt& names) = 0;
 };
 
 // Checks all of them. `options` has max_bytes and threads as each entry gets
@@ -42,9 +55,12 @@ struct BatchRun {
 // options say otherwise, and checked here where they give it up. What took
 // longest the last time is begun first, so that no long one is left for the
 // end; with --fail-fast the first is.
+//
+// What is not done when it is broken off is told as not run.
 BatchRun run_entries(const Options& options,
                      const std::vector<BatchEntry>& entries, KeptResults& kept,
-                     std::function<void(const ReportedTree&)> listener);
+                     std::function<void(const ReportedTree&)> listener,
+                     BreakOff* break_off = nullptr);
 
 // --- One entry, from its files to what there is to report ----------------
 

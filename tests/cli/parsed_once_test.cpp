@@ -180,8 +180,8 @@ TEST_CASE("a batch of a folder, all of its trees together") {
   CHECK(entries.size() == 1);
   KeepsNothing kept;
   for (const BatchEntry& entry : entries) {
-    const auto result =
-        result_of(entry, options, kept, [](const std::string&) {});
+    const auto result = result_of(entry, options, kept,
+                                  [](const std::string&, const LookedAt&) {});
     REQUIRE(result);
     CHECK(result->tree.code != ExitCode::BadInput);
   }

@@ -73,13 +73,16 @@ void ResultsFile::add(const std::string& key, const ReportedTree& tree) {
   const std::string line =
       (kept_.empty() ? heading() : std::string()) + seal_.line(key, text);
   kept_[key] = {std::move(text), true};
-  if (complaint_.empty()) complaint_ = append_file(file_, line);
+  if (complaint_.empty() && !file_.empty()) {
+    complaint_ = append_file(file_, line);
+  }
 }
 
 void ResultsFile::drop_unused() {
   const auto unused =
       std::erase_if(kept_, [](const auto& one) { return !one.second.is_used; });
-  if (unused > 0 && complaint_.empty()) {
+  for (auto& [key, one] : kept_) one.is_used = false;
+  if (unused > 0 && complaint_.empty() && !file_.empty()) {
     complaint_ = replace_file(file_, lines());
   }
 }

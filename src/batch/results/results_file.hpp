@@ -19,7 +19,8 @@ class ResultsFile : public KeptResults {
   // Takes up the results in the file, or starts over without them. The file is
   // made when there is something to keep. Where it cannot be written, nothing
   // is kept, and `complaint` says so. Lines that another secret has sealed
-  // count as damaged. They are gone from the file.
+  // count as damaged. They are gone from the file. Without a name, memory alone
+  // has them.
   enum class Start { Over, TakeUp };
   ResultsFile(std::string file, Start start, std::string secret = {});
 
@@ -27,6 +28,7 @@ class ResultsFile : public KeptResults {
   void use(const std::string& key) override;
   // What may be another time is not kept.
   void add(const std::string& key, const ReportedTree& tree) override;
+  // And what is left is unused from then on.
   void drop_unused() override;
 
  private:
