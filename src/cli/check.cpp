@@ -15,6 +15,7 @@
 
 #include "batch/command.hpp"
 #include "batch/entries/entries.hpp"
+#include "batch/watch/watch.hpp"
 #include "check/check.hpp"
 #include "check/repairs/repairs.hpp"
 #include "cli/console/console.hpp"
@@ -218,8 +219,13 @@ ExitCode told_spent(const Options& options, const std::string& tree,
 
 }  // namespace
 
+ExitCode run_several(const Options& options) {
+  return options.watches ? run_watch(options) : run_batch(options);
+}
+
 ExitCode run_check(const Options& asked) {
-  if (names_several(asked)) return run_batch(as_batch(asked));
+  if (names_several(asked)) return run_several(as_batch(asked));
+  if (asked.watches) return run_watch(asked);
   try {
     return check_one(asked);
   } catch (const BudgetSpent& spent) {

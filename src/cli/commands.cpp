@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "batch/answer.hpp"
-#include "batch/command.hpp"
 #include "batch/entries/entries.hpp"
 #include "batch/leaves.hpp"
 #include "check/export/export_model.hpp"
@@ -249,7 +248,7 @@ constexpr auto kRuns = std::to_array<RunOf>({
     {Command::Check, run_check},       {Command::Space, run_space},
     {Command::Export, run_export},     {Command::Trace, run_trace},
     {Command::Simulate, run_simulate}, {Command::Demo, run_demo},
-    {Command::Batch, run_batch},       {Command::Lint, run_lint},
+    {Command::Batch, run_several},     {Command::Lint, run_lint},
     {Command::Explain, run_explain},   {Command::Init, run_init},
     {Command::Conform, run_conform},   {Command::Completions, run_completions},
     {Command::Man, run_man},           {Command::Run, run_run},

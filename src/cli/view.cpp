@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// `btcheck trace LOG --view`: a log shown while it is written; and the address
-// of a view, which `btcheck run --view` has as well.
+// `btcheck trace LOG --view`: a log shown while it is written.
 #include "cli/view.hpp"
 
 #include <fmt/format.h>
@@ -11,9 +10,9 @@
 #include <thread>
 #include <tuple>
 
-#include "cli/console/console.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
+#include "cli/outputs/open_view.hpp"
 #include "trace/live/live_log.hpp"
 #include "trace/logs/behavior_log.hpp"
 
@@ -63,20 +62,6 @@ std::vector<Diagnostic> follow(const std::string& name, LiveLog& log) {
 }
 
 }  // namespace
-
-bool open_view(const Options& options, LiveServer& server) {
-  const std::string fault = server.open(*options.view);
-  if (!fault.empty()) {
-    show(options,
-         {file_error("BT1705", "",
-                     fmt::format("the run cannot be shown on port {}: {}",
-                                 *options.view, fault),
-                     "--view alone takes a port that is free")});
-    return false;
-  }
-  tell(fmt::format("view: {}\n", server.address()));
-  return true;
-}
 
 ExitCode view_log(const Options& options, const InputFile& file) {
   if (!is_log(file.name, file.text)) {

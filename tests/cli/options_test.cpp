@@ -415,6 +415,45 @@ TEST_CASE("a batch has options of its own, and shares the cores out") {
   }
 }
 
+TEST_CASE("a watch refuses by name what ends, or is kept once") {
+  CHECK(options_of({"--watch", "t.btf"}).watches);
+  CHECK(!options_of({"t.btf"}).watches);
+  CHECK(options_of({"batch", "a", "--watch", "--jobs", "2"}).watches);
+  CHECK(options_of({"--watch", "t.btf", "--view=80"}).view == 80);
+  CHECK(options_of({"--watch", "t.btf", "--format", "sarif=f"}).watches);
+  CHECK(options_of({"--watch", "t.btf", "--format", "jsonl"}).watches);
+  const std::vector<Words> refused = {
+      {"t.xml", "--watch", "--against", "nav2-main"},
+      {"t.btf", "--watch", "--from", "run.itf.json"},
+      {"t.btf", "--watch", "--write-baseline", "b.json"},
+      {"batch", "a", "--watch", "--fail-fast"},
+      {"batch", "a", "--watch", "--results", "r"},
+      {"batch", "a", "--watch", "--join", "r"}};
+  for (const Words& words : refused) {
+    const std::string& name =
+        *std::ranges::find_if(words, [](const std::string& word) {
+          return word.starts_with("--") && word != "--watch";
+        });
+    const Answer answer = answer_to(words);
+    CHECK(answer.code == ExitCode::BadInput);
+    CHECK(answer.text.starts_with("error[BT0001]: --watch and " + name +
+                                  " do not go together\n"));
+  }
+  for (const char* format : {"sarif", "junit", "github", "gitlab"}) {
+    const Answer answer = answer_to({"t.btf", "--watch", "--format", format});
+    CHECK(answer.text.starts_with(
+        std::string("error[BT0001]: --watch and --format ") + format +
+        " on standard output do not go together\n"));
+  }
+  CHECK(answer_to({"t.btf", "--view"})
+            .text.starts_with("error[BT0001]: --view goes with --watch\n"));
+  CHECK(answer_to({"--watch", "-"})
+            .text.starts_with("error[BT0001]: --watch: `-` is no file"));
+  CHECK(answer_to({"lint", "a", "--watch"})
+            .text.find("belongs to check and "
+                       "batch") != std::string::npos);
+}
+
 TEST_CASE("--version says which") {
   const Answer answer = answer_to({"--version"});
   CHECK(answer.code == ExitCode::Met);

@@ -50,6 +50,9 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
   if (command.command == Command::Batch && needs_others) {
     line.emplace_back("--results=shared");
   }
+  const bool checks =
+      command.command == Command::Check || command.command == Command::Batch;
+  if (checks && option.name == "--view") line.emplace_back("--watch");
   if (option.name == "--topic") {
     const bool reads_tree = command.command != Command::Trace &&
                             command.command != Command::Conform;

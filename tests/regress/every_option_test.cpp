@@ -175,6 +175,8 @@ const std::map<std::string_view, std::string> kValues = {
     {"--baseline", "--baseline base.json"},
     {"--write-baseline", "--write-baseline new.json"},
     {"--trace-dir", "--trace-dir runs"},
+    // Alone, the one does not end, and the other is refused.
+    {"--watch", "--watch --write-baseline new.json"},
     {"--view", "--view"},
     {"--stats", "--stats json"},
     {"--export", "--export aut=new.aut"},

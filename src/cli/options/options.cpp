@@ -493,6 +493,48 @@ void settle_against(const OptionWords& words, Options& options) {
   }
 }
 
+// What is checked again and again is told each time; what is kept once, and
+// what ends by itself, is no part of it.
+void settle_watch(const OptionWords& words, Options& options) {
+  options.watches = words.has("--watch");
+  const bool checks =
+      options.command == Command::Check || options.command == Command::Batch;
+  if (checks && options.view && !options.watches) {
+    refuse("--view goes with --watch", "btcheck --watch TREE --view");
+  }
+  if (!options.watches) return;
+  for (const auto& [name, instead] :
+       {std::pair("--against", "each change is told beside what was before"),
+        std::pair("--from", "the end of a run that is over is checked once"),
+        std::pair("--write-baseline",
+                  "write it once, and watch with --baseline"),
+        std::pair("--fail-fast", "what was saved is checked first"),
+        std::pair("--results", "--resume takes up an earlier batch"),
+        std::pair("--join", "--resume takes up an earlier batch")}) {
+    if (!words.has(name)) continue;
+    refuse(fmt::format("--watch and {} do not go together", name), instead);
+  }
+  for (const std::string& input : options.inputs) {
+    if (input != kStandardInput && !input.starts_with("/dev/")) continue;
+    refuse(fmt::format("--watch: `{}` is no file that is saved again",
+                       input == kStandardInput ? "-" : input),
+           "btcheck --watch TREE");
+  }
+  for (const ReportTarget& target : options.reports) {
+    const bool is_stream = target.format == ReportFormat::Text ||
+                           target.format == ReportFormat::Json ||
+                           target.format == ReportFormat::JsonLines;
+    if (is_stream || !target.file.empty()) continue;
+    const auto formats = choices_of(*option_of(options.command, "--format"));
+    const std::string& name = formats[static_cast<std::size_t>(target.format)];
+    refuse(
+        fmt::format("--watch and --format {} on standard output do not go "
+                    "together",
+                    name),
+        fmt::format("--format {}=FILE writes the file anew each time", name));
+  }
+}
+
 // What a command cannot do without.
 void refuse_missing(const OptionWords& words) {
   const CommandRow& command = row_of(words.command);
@@ -549,6 +591,7 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_topic(words, options);
   settle_against(words, options);
   settle_batch(words, options);
+  settle_watch(words, options);
   settle_roots(words, options);
   refuse_missing(words);
   return options;

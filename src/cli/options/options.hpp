@@ -176,6 +176,7 @@ struct Options {
   StatisticsFormat statistics = StatisticsFormat::Table;
   When color = When::Auto;
   BatchOptions batch;
+  bool watches = false;     // --watch: check again whenever a file changes
   bool is_quiet = false;    // no progress, no statistics
   bool is_verbose = false;  // every run, every step
 };

@@ -452,6 +452,17 @@ constexpr CodeRow kCommandCodes[] = {
      .help = "Run the batch with --results; it checks what is left.",
      .severity = Severity::Warning,
      .example = {.tree = kOneAction, .command = "batch tree.btf --join ."}},
+    {.code = "BT1514",
+     .summary = "files that cannot be watched",
+     .description =
+         "`--watch` asks the kernel to tell of each folder in which there is "
+         "something to check. A user has so many of these watches, "
+         "fs.inotify.max_user_watches, and editors take some; or the folder "
+         "may not be read. The others are watched, and with each change that "
+         "is seen everything is looked at.",
+     .help = "Watch fewer folders, exclude some in btcheck.toml, or ask for "
+             "more: sysctl fs.inotify.max_user_watches=524288.",
+     .severity = Severity::Warning},
     {.code = "BT1701",
      .summary = "a tree that is not run",
      .description = "`btcheck run` executes trees in .btf. A tree for "

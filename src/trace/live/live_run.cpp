@@ -18,8 +18,8 @@ constexpr std::size_t kAway = static_cast<std::size_t>(-1);
 
 }  // namespace
 
-LiveRun::LiveRun(RecordedRun beginning, std::size_t most_cells)
-    : most_cells_(most_cells) {
+LiveRun::LiveRun(RecordedRun beginning, Kind kind, std::size_t most_cells)
+    : kind_(kind), most_cells_(most_cells) {
   open_chapter(std::move(beginning));
 }
 
@@ -31,6 +31,7 @@ void LiveRun::open_chapter(RecordedRun beginning) {
   packer_ = std::make_unique<RunPacker>(*beginning_);
   Json document = packer_->about();
   document.add("live", chapter_);
+  if (kind_ == Kind::Replaced) document.add("replaced", 1);
   packer_->add(beginning_->states, document);
   packed_ = safe_json(document);
 }

@@ -20,6 +20,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "trace/run/recorded_run.hpp"
@@ -29,9 +30,15 @@ namespace btcheck {
 
 class LiveRun {
  public:
+  // Whether one run goes on, or runs that are over take each other's place.
+  enum class Kind : std::uint8_t { Growing, Replaced };
+
   // The run as it begins, with at least one state. A chapter has no more than
   // `most_cells` states times nodes, but for its last piece.
-  explicit LiveRun(RecordedRun beginning, std::size_t most_cells = kMostCells);
+  explicit LiveRun(RecordedRun beginning, std::size_t most_cells = kMostCells)
+      : LiveRun(std::move(beginning), Kind::Growing, most_cells) {}
+  LiveRun(RecordedRun beginning, Kind kind,
+          std::size_t most_cells = kMostCells);
 
   // The run has gone on. At the last state `words` are said of it, once it is
   // over; after that nothing is added.
@@ -69,6 +76,7 @@ class LiveRun {
   void push(std::string_view event, std::string_view data);
   void tell() const;
 
+  const Kind kind_;
   const std::size_t most_cells_;
   mutable std::mutex mutex_;
   std::uint64_t chapter_ = 0;

@@ -8,6 +8,21 @@
 // and no more than a third of the time is spent on them.
 const LEAST_REST = 40;
 
+// What btcheck tells of a run; `page` becomes "live", "lost" or "gone".
+function listenTo(chapter, page, beginAnew, conclude) {
+  const token = new URLSearchParams(location.search).get("token");
+  const stream = new EventSource(`/events?token=${token}&chapter=${chapter}`);
+  stream.onopen = () => page.become("live");
+  stream.onerror = () => page.become(
+    stream.readyState === EventSource.CLOSED ? "gone" : "lost");
+  stream.addEventListener("anew", () => { stream.close(); beginAnew(); });
+  stream.addEventListener("end", ({ data }) => {
+    stream.close();
+    conclude(JSON.parse(data));
+  });
+  return stream;
+}
+
 class LiveViewer extends Viewer {
   constructor(run) {
     super(run);
@@ -54,19 +69,13 @@ class LiveViewer extends Viewer {
   }
 
   listenToRun(chapter) {
-    const token = new URLSearchParams(location.search).get("token");
-    this.stream = new EventSource(`/events?token=${token}&chapter=${chapter}`);
+    this.stream = listenTo(chapter, this, () => this.beginAnew(),
+                           (words) => this.conclude(words));
     this.stream.onmessage = ({ data }) => {
       this.waiting.push(JSON.parse(data));
       this.timeout ??= setTimeout(() => this.take(),
                                   Math.max(LEAST_REST, 2 * this.cost));
     };
-    this.stream.onopen = () => this.become("live");
-    this.stream.onerror = () => this.become(
-      this.stream.readyState === EventSource.CLOSED ? "gone" : "lost");
-    this.stream.addEventListener("anew", () => this.beginAnew());
-    this.stream.addEventListener("end", ({ data }) =>
-      this.conclude(JSON.parse(data)));
   }
 
   // What has come since the last look.
@@ -102,13 +111,11 @@ class LiveViewer extends Viewer {
 
   // The run that is shown from now on begins later than this page does.
   beginAnew() {
-    this.stream.close();
     if (this.isFollowing) location.reload();
     else this.become("anew");
   }
 
   conclude(words) {
-    this.stream.close();
     if (this.waiting.length > 0) this.take();
     const wasFollowing = this.isFollowing;
     this.run.endWords = words;
@@ -141,4 +148,69 @@ class LiveViewer extends Viewer {
   }
 }
 
-begin(LiveViewer);
+// What is said of a page beside which btcheck goes on watching files.
+const WATCHING = {
+  live: "of the last check; the next save may change it",
+  ended: "btcheck watches no longer",
+  lost: "btcheck does not answer; trying again",
+  gone: "btcheck watches no longer",
+};
+
+// Runs of a tree that somebody works on: each is over, and the next one takes
+// its place.
+class ReplacedViewer extends LiveViewer {
+  constructor(run) {
+    super(run);
+    this.show(this.linkedStep() ?? run.tellingStep);
+  }
+
+  makeParts() {
+    super.makeParts();
+    byId("follow").remove();
+    byId("verdict").className = this.run.isViolated ? "bad" : "good";
+  }
+
+  get end() { return this.run.last; }
+  get hash() { return `#step=${this.step}`; }
+
+  // A step of this run is none of the next.
+  beginAnew() {
+    location.replace(location.pathname + location.search);
+  }
+
+  conclude() { this.become("ended"); }
+
+  become(state) {
+    this.state = state;
+    this.tellState();
+  }
+
+  tellState() { byId("live").textContent = WATCHING[this.state]; }
+}
+
+// In the place of a run: that nothing is wrong, or that there is no run of it.
+class WithoutRun {
+  constructor(run) {
+    fillHeading(run);
+    if (run.why) {
+      byId("verdict").className = "bad";
+      byId("verdict").replaceChildren(glyph("failure"), run.verdict);
+    }
+    byId("why-text").textContent = run.why;
+    document.querySelector("main").hidden = true;
+    document.querySelector(".actions").replaceChildren(
+      element("span", { id: "live", role: "status" }));
+    this.become("live");
+    const reload = () => location.replace(location.pathname + location.search);
+    listenTo(run.packed.live, this, reload, () => this.become("ended"));
+  }
+
+  become(state) { byId("live").textContent = WATCHING[state]; }
+}
+
+begin(class {
+  constructor(run) {
+    return new (!run.packed.replaced ? LiveViewer
+      : run.nodes.length > 0 ? ReplacedViewer : WithoutRun)(run);
+  }
+});
