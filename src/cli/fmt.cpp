@@ -23,6 +23,7 @@
 #include "project/xml_project.hpp"
 #include "report/text/report.hpp"
 #include "style/kept.hpp"
+#include "style/moved.hpp"
 #include "style/style.hpp"
 #include "text/repair.hpp"
 
@@ -56,7 +57,7 @@ class Formatter {
     for (const std::string& input : options_.inputs) {
       if (is_folder(input)) {
         format_folder(input);
-      } else if (auto file = taken(read_file(input))) {
+      } else if (auto file = taken(read_file_in(options_.roots, input))) {
         if (input == kStandardInput && !plan_.stdin_name.empty()) {
           file->name = plan_.stdin_name;
         }
@@ -91,9 +92,9 @@ class Formatter {
     for (const std::string& name : *names) {
       std::error_code fault;
       if (!is_formatted_name(name) || fs::is_symlink(name, fault)) continue;
-      auto file = taken(read_file(name));
+      auto file = taken(read_file_in(options_.roots, name));
       if (!file || !is_of_ours(*file)) continue;
-      if (is_xml_name(name)) add_file(*project, {folder}, name);
+      if (is_xml_name(name)) add_file(*project, options_.roots, name);
       files.push_back(std::move(*file));
     }
     if (files.empty()) {
@@ -122,6 +123,7 @@ class Formatter {
       }
     }
     changed_ += is_changed ? 1 : 0;
+    if (is_changed && !is_stdin) warn_of_rules(file, *text);
     if (plan_.writes() && is_stdin) {
       print_for_programs(*text);
     } else if (is_changed && plan_.shows) {
@@ -129,6 +131,30 @@ class Formatter {
           unified_diff(changed_lines(file.name, file.text.text(), *text)));
     } else if (is_changed) {
       print(file.name + "\n");
+    }
+  }
+
+  // Rules beside a tree that name its nodes by lines.
+  void warn_of_rules(const InputFile& tree, const std::string& text) {
+    if (!is_tree_name(tree.name)) return;
+    const auto moved = moved_lines(tree, text);
+    const fs::path folder = fs::path(tree.name).parent_path();
+    std::error_code fault;
+    fs::directory_iterator at(folder.empty() ? "." : folder, fault);
+    for (; !moved.empty() && !fault && at != fs::directory_iterator();
+         at.increment(fault)) {
+      const std::string name = folder / at->path().filename();
+      if (!is_property_file(name) || !at->is_regular_file(fault)) continue;
+      const auto rules = read_file_in(options_.roots, name);
+      if (!rules.value) continue;
+      const auto named = tree_of_properties(*rules.value);
+      if (!named.value) continue;
+      const bool is_its =
+          named.value->empty()
+              ? fs::path(name).stem() == fs::path(tree.name).stem()
+              : included_name(name, *named.value) ==
+                    fs::path(tree.name).lexically_normal();
+      if (is_its) show(options_, stale_names(*rules.value, tree.name, moved));
     }
   }
 

@@ -16,6 +16,7 @@
 #include "model/automata/network.hpp"
 #include "model/btcpp/tree/entry_programs.hpp"
 #include "model/tree/tree.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck {
 namespace {
@@ -96,18 +97,24 @@ class NetworkTeller {
     }
     return text;
   }
-  // With names of nodes in back quotes that stay.
-  std::string text_of(std::string_view label) const {
-    std::string text;
-    while (!label.empty()) {
-      const std::size_t end = std::min(label.find('`'), label.size());
-      const auto found = stable_names_.find(label.substr(0, end));
-      text += found == stable_names_.end() ? std::string(label.substr(0, end))
-                                           : found->second;
-      text += '`';
-      label.remove_prefix(std::min(end + 1, label.size()));
+  // With names of nodes that stay: `Sequence17_btn2_done`.
+  std::string text_of(std::string_view text) const {
+    std::string told;
+    while (!text.empty()) {
+      std::size_t end = 0;
+      while (end < text.size() && is_in_word(text[end])) ++end;
+      const std::size_t base = std::min(text.substr(0, end).find("_btn"), end);
+      const auto found = stable_names_.find(text.substr(0, base));
+      told += found == stable_names_.end() ? text.substr(0, base)
+                                           : std::string_view(found->second);
+      end = std::min(end + 1, text.size());
+      told += text.substr(base, end - base);
+      text.remove_prefix(end);
     }
-    return text;
+    return told;
+  }
+  static bool is_in_word(char c) {
+    return is_letter(c) || is_digit(c) || c == '_';
   }
   std::string_view program_text(std::int32_t program) const {
     const auto& programs = tree_.programs;
@@ -120,7 +127,7 @@ class NetworkTeller {
         tick_name(network_.ticks), name_of(network_.fault),
         network_.automata.size());
     for (const PastMemory& past : network_.past) {
-      add("{} {}", past.key, name_of(past.variable));
+      add("{} {}", text_of(past.key), name_of(past.variable));
     }
   }
 
@@ -139,7 +146,8 @@ class NetworkTeller {
         "{} {} {} {} {} {} {} {} <{}>", static_cast<int>(variable.role),
         static_cast<int>(variable.local), name_of(variable), variable.min,
         variable.max, variable.initial, variable.scale.step,
-        variable.scale.decimals, fmt::join(variable.value_names, " "));
+        variable.scale.decimals,
+        text_of(fmt::format("{}", fmt::join(variable.value_names, " "))));
   }
 
   void tell(const Automaton& automaton) {
@@ -166,8 +174,8 @@ class NetworkTeller {
     }
     add("{} -> {} if{} then{} in {} {} `{}` {}{}{}", index(edge.source),
         index(edge.target), text_of(edge.guard), text, edge.when.lower,
-        edge.when.upper, text_of(std::string_view(edge.label)), edge.asks_world,
-        edge.tells_why, edge.is_open_round);
+        edge.when.upper, text_of(edge.label), edge.asks_world, edge.tells_why,
+        edge.is_open_round);
   }
 
   const BehaviorTree& tree_;

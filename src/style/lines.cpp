@@ -19,9 +19,12 @@ std::string_view without_blanks_behind(std::string_view text) {
 }  // namespace
 
 std::string_view line_end_of(std::string_view text) {
-  const std::size_t end = text.find('\n');
-  const bool has_return = end != text.npos && end > 0 && text[end - 1] == '\r';
-  return has_return ? "\r\n" : "\n";
+  bool is_any = false;
+  for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; ++at) {
+    if (at == 0 || text[at - 1] != '\r') return "\n";
+    is_any = true;
+  }
+  return is_any ? "\r\n" : "\n";
 }
 
 std::optional<int> column_at(std::string_view text, std::size_t at) {

@@ -18,7 +18,7 @@ inline constexpr int kWidth = 100;
 inline constexpr int kIndent = 2;
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-// How a text ends its lines: as its first line ends.
+// How a text ends its lines: by "\r\n" where all of them end so.
 std::string_view line_end_of(std::string_view text);
 
 // The column where text[at] stands, from 0; a tab goes on to the next multiple

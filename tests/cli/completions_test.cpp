@@ -92,6 +92,8 @@ TEST_CASE("bash offers what may stand there") {
   CHECK(offered("btcheck trace run.json --to s") == "svg strip substitution\n");
   CHECK(offered("btcheck explain BT900") == "BT9001 BT9002 BT9003\n");
   CHECK(offered("btcheck lint t") == "tree.btf\n");
+  CHECK(offered("btcheck fmt t") == "tree.btf\n");
+  CHECK(offered("btcheck fmt --st") == "--stdin-name\n");
   CHECK(offered("btcheck trace ru") == "run.json runs\n");
   CHECK(offered("btcheck tree.btf --trace-dir r") == "runs\n");
   CHECK(offered("btcheck tree.btf --threads ''") == "\n");

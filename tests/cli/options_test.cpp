@@ -258,6 +258,18 @@ TEST_CASE("choices that there are not are refused by name") {
         ExtraAssumption::ActionsEnd);
 }
 
+TEST_CASE("fmt writes unless it is told to show or to check") {
+  const FormattingPlan plain = options_of({"fmt", "a.xml", "b"}).formatting;
+  CHECK(plain.writes());
+  CHECK_FALSE(plain.verifies);
+  CHECK_FALSE(options_of({"fmt", "--check", "a"}).formatting.writes());
+  CHECK_FALSE(options_of({"fmt", "--diff", "a"}).formatting.writes());
+  CHECK(options_of({"fmt", "--verify", "a"}).formatting.verifies);
+  const Options standard = options_of({"fmt", "-", "--stdin-name", "t.xml"});
+  CHECK(standard.input == kStandardInput);
+  CHECK(standard.formatting.stdin_name == "t.xml");
+}
+
 TEST_CASE("a refusal says what was meant, or where an option belongs") {
   struct Refusal {
     Words words;

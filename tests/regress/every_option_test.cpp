@@ -203,6 +203,10 @@ const std::map<std::string_view, std::string> kValues = {
     {"--join", "--join elsewhere"},
     {"--report", "--report new.html"},
     {"--stdio", "--stdio"},
+    {"--check", "--check"},
+    {"--diff", "--diff"},
+    {"--verify", "--verify"},
+    {"--stdin-name", "--stdin-name t.ltl"},
     {"--color", "--color always"},
     {"-q", "-q"},
     {"-v", "-v"},
@@ -245,6 +249,9 @@ constexpr Without kWithout[] = {
     {"serve mcp lsp", "-q -v --color", "", "programs read what it prints"},
     {"lsp", "--stdio", "", "there is no other way"},
     {"conform", "-q", "", "it prints what it has found and nothing else"},
+    {"fmt", "--config --no-config", "", "they leave nothing out here"},
+    {"fmt", "--verify", "", "the networks are equal"},
+    {"fmt", "--timeout", "", "it is done before a limit is looked at"},
 };
 
 bool names(std::string_view list, std::string_view word) {
@@ -294,6 +301,8 @@ std::vector<std::string> lines_of(const CommandRow& row,
       return {"mcp <check.rpc"};
     case Command::Lsp:
       return {"lsp <open.rpc"};
+    case Command::Fmt:
+      return {line, line + " none.btf"};
     case Command::Monitor:
       return {line + " <events.jsonl",
               line + " --prop trees/t.ltl " + "<events.jsonl"};

@@ -20,8 +20,8 @@ constexpr std::string_view kTitle =
 // In the order of ExitCode.
 constexpr std::array<std::string_view, 5> kExitCodes = {
     "every property met its expectation",
-    "some property missed its expectation, or the default report or `lint` "
-    "found a fault",
+    "some property missed its expectation, the default report or `lint` found "
+    "a fault, or `fmt --check` a file in another style",
     "usage, input or model error: nothing was checked",
     "undecided: a limit, a timeout or an interrupt, and nothing violated",
     "internal error"};

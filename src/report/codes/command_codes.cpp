@@ -148,6 +148,18 @@ constexpr CodeRow kCommandCodes[] = {
      .example = {.body = "<Sequence><AlwaysSuccess/><AlwaysFailure/>"
                          "</Sequence> <!-- btcheck: allow BT2208 -->",
                  .command = "fmt --check tree.xml"}},
+    {.code = "BT0014",
+     .summary = "rules name a node by a line that it has left",
+     .description =
+         "`btcheck fmt` has moved nodes of a tree to other lines, and rules "
+         "beside it name one by its line, `land@23` or `Sequence17`.",
+     .help =
+         "Write the new line; or give the node a name and write that, which "
+         "stays when lines move.",
+     .severity = Severity::Warning,
+     .example = {.tree = "\n\n(BehaviorTree :name t (Action :ID a))",
+                 .rules = "tree \"tree.btf\"\nproperty p: never a@3.failure",
+                 .command = "fmt --check tree.btf"}},
     {.code = "BT9001",
      .summary = "memory ran out",
      .description =
