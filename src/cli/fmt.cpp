@@ -137,12 +137,11 @@ class Formatter {
   // Rules beside a tree that name its nodes by lines.
   void warn_of_rules(const InputFile& tree, const std::string& text) {
     if (!is_tree_name(tree.name)) return;
-    const auto moved = moved_lines(tree, text);
+    const auto nodes = moved_nodes(tree, text);
     const fs::path folder = fs::path(tree.name).parent_path();
     std::error_code fault;
     fs::directory_iterator at(folder.empty() ? "." : folder, fault);
-    for (; !moved.empty() && !fault && at != fs::directory_iterator();
-         at.increment(fault)) {
+    for (; !fault && at != fs::directory_iterator(); at.increment(fault)) {
       const std::string name = folder / at->path().filename();
       if (!is_property_file(name) || !at->is_regular_file(fault)) continue;
       const auto rules = read_file_in(options_.roots, name);
@@ -154,7 +153,7 @@ class Formatter {
               ? fs::path(name).stem() == fs::path(tree.name).stem()
               : included_name(name, *named.value) ==
                     fs::path(tree.name).lexically_normal();
-      if (is_its) show(options_, stale_names(*rules.value, tree.name, moved));
+      if (is_its) show(options_, stale_names(*rules.value, tree.name, nodes));
     }
   }
 
@@ -211,6 +210,7 @@ class Formatter {
   }
 
   void tell_summary() {
+    flush_output();
     if (plan_.writes()) {
       tell(fmt::format("{} of {} files formatted\n", changed_, count_));
     } else {

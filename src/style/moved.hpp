@@ -4,7 +4,6 @@
 // have to follow where formatting moves lines.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -13,13 +12,20 @@
 
 namespace btcheck {
 
-// The lines of a tree where nodes stood, and where they stand now, as far as
-// that is another one. The text is what `styled` makes of the file.
-std::map<int, int> moved_lines(const InputFile& tree, const std::string& text);
+struct MovedNode {
+  std::string word;  // that it begins with: its type, as a rule
+  int before = 0;    // its line
+  int after = 0;
+};
 
-// BT0014 for each name in rules that is made with such a line.
+// All nodes of a tree, and what looks like one. The text is what `styled` makes
+// of the file.
+std::vector<MovedNode> moved_nodes(const InputFile& tree,
+                                   const std::string& text);
+
+// BT0014 for each name in rules that is made with a line that is another now.
 std::vector<Diagnostic> stale_names(const InputFile& rules,
                                     const std::string& tree,
-                                    const std::map<int, int>& moved);
+                                    const std::vector<MovedNode>& nodes);
 
 }  // namespace btcheck

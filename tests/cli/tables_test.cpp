@@ -53,6 +53,9 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
   const bool checks =
       command.command == Command::Check || command.command == Command::Batch;
   if (checks && option.name == "--view") line.emplace_back("--watch");
+  if (option.name == "--stdin-name" && command.command == Command::Fmt) {
+    line.at(2) = "-";
+  }
   if (option.name == "--topic") {
     const bool reads_tree = command.command != Command::Trace &&
                             command.command != Command::Conform;

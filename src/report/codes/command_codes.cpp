@@ -146,7 +146,7 @@ constexpr CodeRow kCommandCodes[] = {
      .help = "Put the comment into a line of its own, right above the node "
              "that it is about.",
      .example = {.body = "<Sequence><AlwaysSuccess/><AlwaysFailure/>"
-                         "</Sequence> <!-- btcheck: allow BT2208 -->",
+                         "</Sequence> <!-- btcheck: allow both -->",
                  .command = "fmt --check tree.xml"}},
     {.code = "BT0014",
      .summary = "rules name a node by a line that it has left",
