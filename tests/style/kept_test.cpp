@@ -19,6 +19,7 @@
 
 #include "btcpp_random/scripted_tree.hpp"
 #include "file_text.hpp"
+#include "ltl/rules/parser.hpp"
 #include "ltl/rules/property.hpp"
 #include "model/btcpp/outline.hpp"
 #include "model/btcpp/xml_text.hpp"
@@ -214,7 +215,64 @@ std::string scattered_xml(const std::string& text, SplitMix64& random) {
   return scattered + random_gap(random, "<!-- the end -->");
 }
 
+// Blanks and comments between words of a line, and at the ends of lines.
+std::string scattered_rules(const std::string& text, SplitMix64& random) {
+  const std::vector<std::string> gaps = {" ", "    ", "\t", " /* note */ "};
+  const SourceText source("", text);
+  const TokenList read = tokenize(source);
+  std::string scattered;
+  std::size_t at = 0;
+  for (const Token& token : read.tokens) {
+    const bool is_end = token.kind == TokenKind::End;
+    const std::size_t begin = is_end ? text.size() : token.begin;
+    const std::string gap = text.substr(at, begin - at);
+    if (gap.find_first_not_of(" \t") != gap.npos || gap.empty()) {
+      const bool begins_line = gap.starts_with('\n') && random.percent(20);
+      scattered += (begins_line ? "  # note" : "") + gap;
+    } else {
+      scattered += gaps[static_cast<std::size_t>(random.below(4))];
+    }
+    scattered += text.substr(begin, token.end - begin);
+    at = token.end;
+  }
+  return scattered;
+}
+
+// Whether the networks of two trees are told apart, and by what.
+std::string told_apart(const std::string& one, const std::string& other) {
+  const auto before =
+      lowered_input({{"t.btf", one}, {}}, {}, TickSemantics::Root);
+  const auto after =
+      lowered_input({{"t.btf", other}, {}}, {}, TickSemantics::Root);
+  REQUIRE(before.value.has_value());
+  REQUIRE(after.value.has_value());
+  return difference(*before.value, *after.value);
+}
+
 }  // namespace
+
+TEST_CASE("networks are told apart by all that is checked, not by lines") {
+  const std::string tree =
+      "(defsv x :max 3 :init 0)\n(BehaviorTree :name t (Repeat :repeat 2 "
+      "(Sequence (Action :ID a) (Action :ID b :duration 3) (Eval (< x 2)))))";
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string other = tree;
+    other.replace(other.find(from), from.size(), to);
+    return told_apart(tree, other);
+  };
+  CHECK(with("(Sequence", "\n\n(Sequence ; a comment\n") == "");
+  CHECK(with("(Sequence", "(Fallback") != "");
+  CHECK(with(":repeat 2", ":repeat 3") != "");
+  CHECK(with(":ID a", ":ID c") != "");
+  CHECK(with(":ID a", ":ID a :SF") != "");
+  CHECK(with(":duration 3", ":duration 4") != "");
+  CHECK(with("(< x 2)", "(< x 1)") != "");
+  CHECK(with("(< x 2)", "(> x 2)") != "");
+  CHECK(with(":max 3", ":max 4") != "");
+  CHECK(with(":init 0", ":init 1") != "");
+  CHECK(with(":name t", ":name t :loop 1") != "");
+  CHECK(with("(Action :ID a) ", "") != "");
+}
 
 TEST_CASE("every file means the same in its style, and has only one") {
   const char* other = std::getenv("BTCHECK_STYLE_FOLDER");
@@ -240,6 +298,24 @@ TEST_CASE("every file means the same in its style, and has only one") {
   CHECK(counts.files > 1000);
   CHECK(counts.networks > 600);
   CHECK(counts.rules > 3000);
+}
+
+TEST_CASE("rules mean the same, whatever stands between their words") {
+  Counts counts;
+  SplitMix64 random(reference::seed_or(1));
+  for (const char* folder :
+       {BTCHECK_ROOT "/examples", BTCHECK_ROOT "/properties"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      const std::string name = entry.path().string();
+      if (!is_property_file(name)) continue;
+      const std::string text = file_text(name);
+      const std::string scattered = scattered_rules(text, random);
+      CAPTURE(scattered);
+      REQUIRE(is_kept(name, scattered, counts));
+      compare_rules(name, text, *styled({name, scattered}).value, counts);
+    }
+  }
+  CHECK(counts.files > 150);
 }
 
 TEST_CASE("random trees of .btf mean the same, wherever their lines break") {
