@@ -166,8 +166,8 @@ std::string findings_text(const View& view, TextStretch word) {
         codes.push_back(each.code);
         const CodeRow* row = code_named(each.code);
         if (row == nullptr) continue;
-        text += fmt::format("\n\n---\n**{}** {}", each.code,
-                            plain(row->description));
+        text += fmt::format("\n\n---\n**{}** {}  \n{}", each.code,
+                            plain(each.message), plain(row->description));
         if (!row->help.empty()) text += "  \n" + plain(row->help);
       }
     }
