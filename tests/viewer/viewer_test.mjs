@@ -94,6 +94,43 @@ test("a node that is skipped has a colour and a sign of its own", async () => {
   assert.ok(lanes > 0);
 });
 
+test("a window around it hears which node is chosen, and may choose", async () => {
+  const [flight] = recorded("lasso")["#meta"].nodes.filter(
+    (node) => node.key === "goto_waypoint_btn16");
+  await open("lasso");
+  await page.evaluate(`globalThis.heard = [];
+    addEventListener("btcheck-node", ({ detail }) => heard.push(detail));`);
+  const heard = () => page.evaluate("heard");
+  const selected = () => page.evaluate(
+    "document.querySelector('.node.selected')?.dataset.key");
+  const ask = (message) => page.evaluate(`new Promise((done) => {
+    addEventListener("message", () => done(), { once: true });
+    postMessage(${JSON.stringify(message)}, "*");
+  })`);
+  await page.evaluate(`document.querySelector(
+    '.node[data-key="goto_waypoint_btn16"]').click()`);
+  assert.deepEqual(await heard(), [
+    { file: "", line: flight.line, column: flight.column }]);
+  // What is asked for from outside is not told back.
+  await ask({ btcheck: "select", line: 27 });
+  assert.equal(await selected(), "goto_waypoint_btn16");
+  await ask({ btcheck: "select", file: "", line: 20 });
+  assert.equal(await selected(), "measure_battery_btn9");
+  for (const nowhere of [{ line: 1 }, { file: "other.btf", line: 20 }, {}]) {
+    await ask({ btcheck: "select", ...nowhere });
+    assert.equal(await selected(), undefined);
+  }
+  await ask({ btcheck: "select", line: 20 });
+  for (const other of [null, "select", { line: 27 }, { btcheck: "fold" }]) {
+    await ask(other);
+    assert.equal(await selected(), "measure_battery_btn9");
+  }
+  assert.equal((await heard()).length, 1);
+  await page.evaluate("document.querySelectorAll('.has-node')[0].click()");
+  assert.equal((await heard()).length, 2);
+  assert.deepEqual(page.complaints, []);
+});
+
 test("the heading names verdict, property, formula and file", async () => {
   await open("watched");
   assert.equal(await page.evaluate("document.title"),

@@ -13,7 +13,10 @@ class Viewer {
     this.stride = "change";
     this.selected = undefined;
     const jump = (step) => this.jump(step);
-    const select = (node) => this.select(node);
+    const select = (node) => {
+      this.select(node);
+      this.tell(node);
+    };
     fillHeading(run);
     fillLegend();
     fillReason(run, select);
@@ -141,6 +144,23 @@ class Viewer {
     if (this.selected !== undefined) this.tree.follow(true);
   }
 
+  // Whoever shows this page in a window of its own, an editor for instance,
+  // hears which node was chosen by hand: an event `btcheck-node` of the window
+  // with { file, line, column }. `file` is "" for the tree's own one.
+  tell(node) {
+    const { file = "", line, column } = this.run.nodes[node] ?? {};
+    const detail = { file, line, column };
+    if (line) dispatchEvent(new CustomEvent("btcheck-node", { detail }));
+  }
+
+  // And may choose one, by a message { btcheck: "select", file, line } to the
+  // window: of several nodes on a line the first, none where it has none.
+  hear({ data }) {
+    if (data?.btcheck !== "select") return;
+    const { nodesOf } = this.source;
+    this.select(nodesOf.get(this.source.lineAt(data))?.[0]);
+  }
+
   get hash() { return `#step=${this.step}`; }
 
   // The address and the voice follow when the reader rests: browsers refuse
@@ -189,6 +209,7 @@ class Viewer {
     byId("fold-all").hidden = this.tree.folded.size === 0;
     this.nameLayout();
     addEventListener("keydown", (event) => this.key(event));
+    addEventListener("message", (event) => this.hear(event));
     addEventListener("hashchange", () => {
       const step = this.linkedStep();
       if (step !== undefined) this.jump(step);
