@@ -2,7 +2,7 @@
 //
 // Makes what highlights .btf files, rules and contracts from the words of the
 // program (words.mjs): TextMate grammars for VS Code, and whoever else reads
-// them, and syntax files for Vim and Neovim.
+// them, syntax files for Vim and Neovim, words for Emacs.
 //   node editors/vscode/script/grammars.mjs           writes them
 //   node editors/vscode/script/grammars.mjs --check   says which are not current
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -190,6 +190,35 @@ function vimRules() {
             ["btruleVerdict", verdicts, "Constant"]] });
 }
 
+// Of Emacs: lists that its modes make expressions of.
+function emacsWords() {
+  const { btf, rules } = words();
+  const list = (name, some) => `(defconst btcheck-words-${name}\n  '(` +
+    [...new Set(some)].sort().map((word) => `"${word}"`).join("\n    ") +
+    "))\n";
+  const logic = new Set([...rules.operators, ...rules.items]);
+  return `;;; btcheck-words.el --- What btcheck reads  -*- lexical-binding: t -*-
+
+;; SPDX-License-Identifier: MIT
+
+;;; Commentary:
+
+;; Made by editors/vscode/script/grammars.mjs.
+
+;;; Code:
+
+${list("forms", [...btf.forms, ...btf.leafForms])}
+${list("types", btf.types)}
+${list("items", rules.items)}
+${list("logic", rules.operators)}
+${list("patterns", [...rules.opening, ...rules.joining, ...rules.other]
+  .filter((word) => !logic.has(word)))}
+${list("events", rules.events)}
+(provide 'btcheck-words)
+;;; btcheck-words.el ends here
+`;
+}
+
 const json = (value) => JSON.stringify(value, null, 2) + "\n";
 export function files() {
   const { forms, leafForms } = words().btf;
@@ -204,6 +233,7 @@ export function files() {
     "editors/neovim/syntax/btcheck-leaves.vim":
       vimBtf("btcheck-leaves", leafForms),
     "editors/neovim/syntax/btcheck-rules.vim": vimRules(),
+    "editors/emacs/btcheck-words.el": emacsWords(),
   };
 }
 
