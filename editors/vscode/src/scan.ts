@@ -33,6 +33,7 @@ export function scan(language: string, text: string): Part[] {
   }
 }
 
+const DEEPEST = 500;  // what is nested deeper is no part: btcheck refuses it
 const LEAVES = /^(action|condition|setsv|eval|wait)$/i;
 const DECLARATIONS = /^(defsv|defaction|defcondition|defun|defenum|trees)$/i;
 const OPERATORS = /^(:=|=|~=|\/=|!=|<|<=|>|>=|and|or|~|not|\+|-|\*|\/|mod)$/i;
@@ -49,7 +50,7 @@ function scanForms(text: string): Part[] {
     const list = open.pop();
     const part = list && partOf(list, end);
     if (!part) return;
-    const above = open.map((one) => one.part).reverse().find((one) => one);
+    const above = open.findLast((one) => one.part)?.part;
     (above ? above.parts : found).push(part);
   };
   for (const { 0: word, index } of text.matchAll(tokens)) {
@@ -66,7 +67,7 @@ function scanForms(text: string): Part[] {
     const list = open.at(-1);
     if (!list) continue;
     list.words.push({ text: word, begin: index, end });
-    if (list.words.length === 1 && isNamedForm(word)) {
+    if (list.words.length === 1 && open.length < DEEPEST && isNamedForm(word)) {
       list.part = { kind: "node", name: word, detail: "", parts: [],
                     begin: text.lastIndexOf("(", index), end,
                     nameBegin: index, nameEnd: end };
@@ -158,15 +159,15 @@ function scanXml(text: string): Part[] {
     if (!tag) continue;
     const end = match.index + all.length;
     if (slash) {
-      const at = open.map(({ detail, name }) => detail || name)
-        .lastIndexOf(tag);
+      const at = open.findLastIndex(({ detail, name }) =>
+        (detail || name) === tag);
       if (at < 0) continue;
       while (open.length > at) finish(end);
       continue;
     }
     const part = xmlPart(tag, attributes, match.index, end);
     const above = open.at(-1);
-    (above ? above.parts : found).push(part);
+    if (open.length < DEEPEST) (above ? above.parts : found).push(part);
     if (!isClosed) open.push(part);
     else if (part.kind === "node") part.kind = "leaf";
   }

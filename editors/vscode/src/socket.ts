@@ -6,23 +6,10 @@ import { AbstractMessageReader, AbstractMessageWriter, BaseLanguageClient,
          DataCallback, Disposable, LanguageClientOptions, Message,
          MessageTransports } from "vscode-languageclient";
 
+import { refusal } from "./address";
 import { Connect, told, Unreachable } from "./session";
 
 const PATIENCE = 10_000;  // milliseconds until it must have answered
-
-/** Why an address is not gone to, or "". */
-export function refusal(address: string): string {
-  let url: URL;
-  try {
-    url = new URL(address);
-  } catch {
-    return "it is no address";
-  }
-  if (url.protocol === "wss:") return "";
-  if (url.protocol !== "ws:") return "it is no WebSocket: ws:// or wss://";
-  return ["127.0.0.1", "localhost", "[::1]"].includes(url.hostname) ? ""
-    : "a text is not sent through a network without encryption: wss://";
-}
 
 function opened(address: string): Promise<WebSocket> {
   const socket = new WebSocket(address);
