@@ -112,7 +112,10 @@ export class Workbench {
         "workbench.startupEditor": "none", "telemetry.telemetryLevel": "off",
         "workbench.tips.enabled": false, "chat.disableAIFeatures": true,
         "window.title": "${activeEditorShort}", "editor.minimap.enabled": false,
-        "workbench.enableExperiments": false, "chat.commandCenter.enabled": false,
+        "workbench.enableExperiments": false, "files.autoSave": "off",
+        "workbench.activityBar.location": "hidden", "breadcrumbs.enabled": false,
+        "editor.stickyScroll.enabled": false, "window.commandCenter": false,
+        "workbench.layoutControl.enabled": false, "chat.commandCenter.enabled": false,
         ...this.settings },
     };
     return `<!doctype html><html><head><meta charset="utf-8">

@@ -12,7 +12,7 @@ const PAUSE = 400;  // milliseconds without an edit, before a picture is drawn a
 // What the page says by events and messages of its own window (docs/traces.md)
 // is handed on. It knows nothing of VS Code, so it is told here which colours
 // the editor has.
-const BRIDGE = `<style>body { padding: 0; }</style>
+const BRIDGE = `<style>body { padding-left: 0; padding-right: 0; }</style>
 <script>(() => {
   const editor = acquireVsCodeApi();
   addEventListener("btcheck-node",
@@ -31,6 +31,23 @@ const BRIDGE = `<style>body { padding: 0; }</style>
 })();</script>
 `;
 
+// Of a run that stands for the tree alone, the tree is shown: all of it, as it
+// is before the first tick.
+const DRAWING = `<style>
+  header, #timeline, aside, .legend { display: none !important; }
+  body { padding: 0; height: 100vh; min-height: 0; }
+  main { display: flex; flex-direction: column; flex: 1; }
+  #tree { flex: 1; height: auto; min-height: 0; border: 0; }
+</style>
+<script>(() => {
+  document.getElementById("to-start").click();
+  const unfold = document.getElementById("fold-all");
+  if (!unfold.hidden) unfold.click();
+  document.getElementById("zoom-fit").click();
+})();</script>
+`;
+
+type Kind = "btcheck.run" | "btcheck.tree";
 interface Told { node?: { file: string; line: number; column: number } }
 
 class PageView {
@@ -40,8 +57,8 @@ class PageView {
   private selected = 0;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
-  constructor(private readonly uri: vscode.Uri, kind: string, title: string,
-              onEnd: () => void) {
+  constructor(private readonly uri: vscode.Uri, private readonly kind: Kind,
+              title: string, onEnd: () => void) {
     this.panel = vscode.window.createWebviewPanel(
       kind, title, { viewColumn: vscode.ViewColumn.Beside,
                      preserveFocus: true },
@@ -69,7 +86,8 @@ class PageView {
     this.panel.title = title;
     if (html === this.html) return;
     this.html = html;
-    this.panel.webview.html = withBridge(html);
+    this.panel.webview.html =
+      withEnd(html, this.kind === "btcheck.tree" ? BRIDGE + DRAWING : BRIDGE);
     this.selected = 0;
   }
 
@@ -135,9 +153,9 @@ function columnOf(text: string, column: number): number {
   return [...text].slice(0, Math.max(0, column - 1)).join("").length;
 }
 
-function withBridge(html: string): string {
+function withEnd(html: string, end: string): string {
   const at = html.lastIndexOf("</body>");
-  return at < 0 ? html + BRIDGE : html.slice(0, at) + BRIDGE + html.slice(at);
+  return at < 0 ? html + end : html.slice(0, at) + end + html.slice(at);
 }
 
 export class Pages implements vscode.Disposable {
@@ -193,7 +211,7 @@ export class Pages implements vscode.Disposable {
       textDocument: { uri: uri.toString() } }));
   }
 
-  private viewOf(uri: vscode.Uri, kind: string, title: string,
+  private viewOf(uri: vscode.Uri, kind: Kind, title: string,
                  begin: (made: PageView) => void = () => {}): PageView {
     const key = `${kind} ${uri.toString()}`;
     let view = this.views.get(key);
