@@ -34,7 +34,7 @@ const BRIDGE = `<style>body { padding-left: 0; padding-right: 0; }</style>
 // Of a run that stands for the tree alone, the tree is shown: all of it, as it
 // is before the first tick.
 const DRAWING = `<style>
-  header, #timeline, aside, .legend { display: none !important; }
+  header, #timeline, aside, .legend, #fold-all { display: none !important; }
   body { padding: 0; height: 100vh; min-height: 0; }
   main { display: flex; flex-direction: column; flex: 1; }
   #tree { flex: 1; height: auto; min-height: 0; border: 0; }
@@ -43,7 +43,6 @@ const DRAWING = `<style>
   document.getElementById("to-start").click();
   const unfold = document.getElementById("fold-all");
   if (!unfold.hidden) unfold.click();
-  document.getElementById("zoom-fit").click();
 })();</script>
 `;
 

@@ -6,9 +6,11 @@
 // WebSocket elsewhere.
 import * as vscode from "vscode";
 import { BaseLanguageClient, DidChangeConfigurationNotification,
-         LanguageClientOptions, State } from "vscode-languageclient";
+         DocumentFormattingRequest, LanguageClientOptions, ServerCapabilities,
+         State } from "vscode-languageclient";
 
-import { isOurs, followEditors, LANGUAGES, settings } from "./documents";
+import { followEditors, isOurs, LANGUAGES, onlyOurs, settings,
+         TreeFormatters } from "./documents";
 
 export interface RunTitle { name: string; title: string }
 export interface Page { title: string; html: string }
@@ -29,6 +31,7 @@ export class Session implements vscode.Disposable {
   private readonly runsOf = new Map<string, RunTitle[]>();
   private readonly status: vscode.StatusBarItem;
   private readonly rest: vscode.Disposable[] = [];
+  private formatters: vscode.Disposable | undefined;
   private failure = "";
   private isEnded = false;
   readonly output: vscode.LogOutputChannel;
@@ -93,6 +96,7 @@ export class Session implements vscode.Disposable {
       ({ uri, runs }: { uri: string; runs: RunTitle[] }) => {
         this.runsOf.set(vscode.Uri.parse(uri).toString(), runs);
       });
+    this.formatters = formatTrees(found);
     found.onDidChangeState(({ newState }) => this.follow(newState));
     try {
       await found.start();
@@ -113,6 +117,7 @@ export class Session implements vscode.Disposable {
           "**/{btcheck.toml,*.btf,*.ltl,*.leaves,*.xml,*.btproj}"),
       },
       middleware: {
+        ...onlyOurs(),
         workspace: {
           // Only our own settings, and as the server knows them.
           didChangeConfiguration: async () => {},
@@ -176,6 +181,7 @@ export class Session implements vscode.Disposable {
     const { client } = this;
     this.client = undefined;
     this.starting = undefined;
+    this.formatters?.dispose();
     this.runsOf.clear();
     if (!client) return;
     try {
@@ -191,6 +197,28 @@ export class Session implements vscode.Disposable {
     await this.stop();
     for (const one of this.rest) one.dispose();
   }
+}
+
+// Formatting, which the client would offer for all XML, for trees alone.
+function formatTrees(client: BaseLanguageClient): vscode.Disposable {
+  const feature = client.getFeature(DocumentFormattingRequest.method);
+  const { initialize } = feature;
+  let isOffered = false;
+  feature.initialize = (capabilities: ServerCapabilities): void => {
+    isOffered = Boolean(capabilities.documentFormattingProvider);
+    initialize?.call(feature, capabilities,
+                     LANGUAGES.map((language) => ({ language })));
+  };
+  return new TreeFormatters({
+    provideDocumentFormattingEdits: async (document, options, token) => {
+      if (!isOffered) return undefined;
+      const edits = await client.sendRequest(DocumentFormattingRequest.type, {
+        textDocument: { uri: document.uri.toString() },
+        options: client.code2ProtocolConverter
+          .asFormattingOptions(options, {}) }, token);
+      return client.protocol2CodeConverter.asTextEdits(edits, token);
+    },
+  });
 }
 
 export function told(error: unknown): string {

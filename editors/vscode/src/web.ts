@@ -22,7 +22,9 @@ const KINDS: Record<Part["kind"], vscode.SymbolKind> = {
   section: vscode.SymbolKind.Namespace,
 };
 
-function symbols(document: vscode.TextDocument): vscode.DocumentSymbol[] {
+function symbols(document: vscode.TextDocument):
+    vscode.DocumentSymbol[] | undefined {
+  if (!isOurs(document)) return undefined;
   const range = (begin: number, end: number): vscode.Range =>
     new vscode.Range(document.positionAt(begin), document.positionAt(end));
   const made = (part: Part): vscode.DocumentSymbol => {
@@ -35,7 +37,9 @@ function symbols(document: vscode.TextDocument): vscode.DocumentSymbol[] {
   return scan(document.languageId, document.getText()).map(made);
 }
 
-function folds(document: vscode.TextDocument): vscode.FoldingRange[] {
+function folds(document: vscode.TextDocument):
+    vscode.FoldingRange[] | undefined {
+  if (!isOurs(document)) return undefined;  // it has folds of the editor's own
   const found: vscode.FoldingRange[] = [];
   const visit = (part: Part): void => {
     const first = document.positionAt(part.begin).line;
