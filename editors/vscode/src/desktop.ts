@@ -13,7 +13,7 @@ import { Connect, Session, Unreachable } from "./session";
 import { overSocket } from "./socket";
 
 let session: Session | undefined;
-let extension = "";  // whose page tells how btcheck is installed
+let home: vscode.Uri | undefined;  // of the extension
 
 function program(): string {
   const given = vscode.workspace.getConfiguration("btcheck")
@@ -40,13 +40,23 @@ function complaint(file: string): Promise<string> {
   });
 }
 
+// It tells how btcheck is installed. The packer changes the case of its name.
+async function showReadme(): Promise<void> {
+  if (!home) return;
+  const files = await vscode.workspace.fs.readDirectory(home);
+  const readme = files.find(([name]) => /^readme\.md$/i.test(name));
+  if (readme) {
+    await vscode.commands.executeCommand(
+      "markdown.showPreview", vscode.Uri.joinPath(home, readme[0]));
+  }
+}
+
 const overPipes: Connect = async (options) => {
   const file = program();
   const why = await complaint(file);
   if (why) {
     return new Unreachable(why, {
-      "How to install it": () => vscode.commands.executeCommand(
-        "extension.open", extension),
+      "How to install it": showReadme,
       "Set its path": () => vscode.commands.executeCommand(
         "workbench.action.openSettings", "btcheck.path"),
       "Try again": () => session?.restart(),
@@ -82,7 +92,8 @@ async function stepThrough(uri: string | undefined, tree?: string):
 }
 
 export function activate(context: vscode.ExtensionContext): void {
-  extension = context.extension.id;
+  home = context.extensionUri;
+  void vscode.commands.executeCommand("setContext", "btcheck.hasTerminal", true);
   session = new Session((options) => {
     const address = vscode.workspace.getConfiguration("btcheck")
       .get<string>("server")?.trim();
