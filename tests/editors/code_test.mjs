@@ -413,8 +413,9 @@ scene("in Node.js: a server that dies is started again", async () => {
 
 scene("in Node.js: one steps through a tree in a terminal", async () => {
   await command("btcheck: Step through the tree in a terminal");
-  const text = await untilText(".xterm-rows", /start_drone/);
-  assert.match(text, /start_camera/);
+  await untilText(".xterm-rows", /What does start_drone answer\?/);
+  await page.keyboard.type("1\n");
+  await untilText(".xterm-rows", /What does start_camera answer\?/);
   await command("View: Toggle Panel Visibility");
 }, !isRemote);
 
