@@ -118,6 +118,8 @@ install(FILES README.md COMPONENT program DESTINATION ${data}/doc/btcheck)
 install(FILES ${pages}/licenses.txt OPTIONAL COMPONENT program
   DESTINATION ${data}/doc/btcheck)
 install(DIRECTORY schemas COMPONENT program DESTINATION ${data}/btcheck)
+install(DIRECTORY editors/emacs editors/helix editors/neovim
+  COMPONENT program DESTINATION ${data}/btcheck/editors)
 
 # A package of Debian has its changelog and licence in a folder of its name.
 foreach(package program:btcheck library:libbtcheck-dev)

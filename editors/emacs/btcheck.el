@@ -8,7 +8,7 @@
 ;; Modes for .btf trees, rules (.ltl) and contracts of leaves (.leaves), and
 ;; btcheck's language server for them and for behavior trees in XML:
 ;;
-;;   (add-to-list 'load-path "/usr/local/share/btcheck/editors/emacs")
+;;   (add-to-list 'load-path "/usr/share/btcheck/editors/emacs")
 ;;   (require 'btcheck)
 ;;   (add-hook 'btcheck-btf-mode-hook #'eglot-ensure)
 ;;   (add-hook 'btcheck-rules-mode-hook #'eglot-ensure)

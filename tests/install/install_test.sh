@@ -33,6 +33,9 @@ alone/bin/btcheck --version >/dev/null || fail "what is installed does not run"
 "$program" man | gzip -9n >build/pages/btcheck.1.gz  # as btcheck_pages does
 cmake --install build --prefix "$folder/prefix" >log 2>&1 || fail "installation"
 [ -s prefix/share/man/man1/btcheck.1.gz ] || fail "no man page"
+for file in neovim/lua/btcheck.lua helix/languages.toml emacs/btcheck.el; do
+  [ -s "prefix/share/btcheck/editors/$file" ] || fail "no editors/$file"
+done
 ! grep -q "no man page" log || fail "the man page is said to be left out"
 
 configure() {  # configure BUILD WORD…: the package robot against `alone`
