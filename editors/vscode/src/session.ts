@@ -34,8 +34,6 @@ export class Session implements vscode.Disposable {
   private formatters: vscode.Disposable | undefined;
   private failure = "";
   private isEnded = false;
-  private readonly watcher = vscode.workspace.createFileSystemWatcher(
-    "**/{btcheck.toml,*.btf,*.ltl,*.leaves,*.xml,*.btproj}");
   readonly output: vscode.LogOutputChannel;
 
   constructor(private readonly connect: Connect) {
@@ -45,7 +43,7 @@ export class Session implements vscode.Disposable {
     this.status.name = "btcheck";
     this.status.text = "btcheck";
     this.status.command = "btcheck.showOutput";
-    this.rest.push(this.output, this.status, this.watcher,
+    this.rest.push(this.output, this.status,
       followEditors((document) => {
         if (document && isOurs(document)) {
           this.status.show();
@@ -114,7 +112,6 @@ export class Session implements vscode.Disposable {
       outputChannel: this.output,
       traceOutputChannel: this.output,
       progressOnInitialization: false,
-      synchronize: { fileEvents: this.watcher },
       middleware: {
         ...onlyOurs(),
         workspace: {
