@@ -5,7 +5,7 @@
 
 ;;; Commentary:
 
-;; Modes for .btf trees, rules (.ltl) and contracts of leaves (.leaves), and
+;; Modes for .btf trees, rules (.ltl, .btp) and contracts of leaves (.leaves), and
 ;; btcheck's language server for them and for behavior trees in XML:
 ;;
 ;;   (add-to-list 'load-path "/usr/share/btcheck/editors/emacs")
@@ -92,7 +92,7 @@
 ;;;###autoload
 (add-to-list 'auto-mode-alist '("\\.leaves\\'" . btcheck-leaves-mode))
 ;;;###autoload
-(add-to-list 'auto-mode-alist '("\\.ltl\\'" . btcheck-rules-mode))
+(add-to-list 'auto-mode-alist '("\\.\\(?:ltl\\|btp\\)\\'" . btcheck-rules-mode))
 ;;;###autoload
 (add-to-list 'auto-mode-alist '("\\.btproj\\'" . nxml-mode))
 
