@@ -106,11 +106,10 @@ std::optional<Json> repair(const View& view, const FindingHere& here) {
         .first->second.push(
             text_edit(lines->range({begin, end}, view.encoding), added));
   }
-  const std::string title =
-      finding.help.empty()
-          ? fmt::format("btcheck: repair {} (checked)", finding.code)
-          : fmt::format("btcheck: {} (checked)",
-                        finding.help.substr(0, finding.help.find('\n')));
+  std::string what = finding.help.substr(0, finding.help.find('\n'));
+  if (what.ends_with('.')) what.pop_back();
+  if (what.empty()) what = "repair " + finding.code;
+  const std::string title = fmt::format("btcheck: {} (checked)", what);
   return Json{{"title", title},
               {"kind", "quickfix"},
               {"isPreferred", true},
