@@ -10,7 +10,7 @@
 // is built, has ws, and its .vsix beside it; `--remote` has out/server-main.js.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { copyFileSync, mkdtempSync, readFileSync, readdirSync, rmSync,
+import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync,
          writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
@@ -45,6 +45,26 @@ copyFileSync(path.join(root, "examples/drone3.ltl"),
 writeFileSync(path.join(folder, "package.xml"),
               "<package>\n  <export>\n    <build_type>ament</build_type>\n" +
               "  </export>\n</package>\n");
+mkdirSync(path.join(folder, "sub"));
+writeFileSync(path.join(folder, "main.xml"), `<root BTCPP_format="4">
+  <include path="sub/dock.xml"/>
+  <BehaviorTree ID="main">
+    <Sequence>
+      <Action ID="Undock"/>
+      <SubTree ID="dock"/>
+    </Sequence>
+  </BehaviorTree>
+</root>
+`);
+writeFileSync(path.join(folder, "sub/dock.xml"), `<root BTCPP_format="4">
+  <BehaviorTree ID="dock">
+    <Fallback>
+      <Action ID="Approach"/>
+      <Action ID="Stop"/>
+    </Fallback>
+  </BehaviorTree>
+</root>
+`);
 writeFileSync(path.join(folder, "btcheck.toml"), "profile = \"nav2-main\"\n");
 
 const isRemote = options.remote !== undefined;
@@ -332,6 +352,23 @@ scene("the tree is drawn beside the text, and follows it", async () => {
   }
   assert.ok(isDrawn, "the picture does not follow the text");
   await command("File: Revert File");
+});
+
+scene("so are the files that it includes", async () => {
+  await command("View: Close All Editors");
+  await openFile("main.xml");
+  await command("btcheck: Draw the tree beside the text");
+  await showSideBar(false);
+  const drawing = await viewer();
+  await drawing.locator(".node").filter({ hasText: "Approach" }).click();
+  await page.waitForFunction(() => [...document.querySelectorAll(".tab.active")]
+    .some((tab) => tab.textContent.includes("dock.xml")));
+  await cursorIsAt(4);
+  await page.locator(".editor-group-container.active .view-line")
+    .filter({ hasText: "Stop" }).click();
+  await cursorIsAt(5);
+  await drawing.waitForFunction(() => document.querySelector(
+    ".node.selected")?.textContent.includes("Stop"));
 });
 
 scene("the lightbulb repairs it, and the finding is gone", async () => {

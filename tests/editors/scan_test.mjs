@@ -16,12 +16,13 @@ const extension = path.resolve(process.argv[2]);
 const { buildSync } = createRequire(`${extension}/x.js`)("esbuild");
 const made = mkdtempSync(path.join(tmpdir(), "btcheck-scan-"));
 after(() => rmSync(made, { recursive: true }));
-for (const name of ["scan", "address"]) {
+for (const name of ["scan", "address", "paths"]) {
   buildSync({ entryPoints: [`${extension}/src/${name}.ts`], format: "cjs",
               platform: "node", outfile: `${made}/${name}.cjs` });
 }
 const require = createRequire(import.meta.url);
 const { around, isTreeXml, scan } = require(`${made}/scan.cjs`);
+const { along, folderOf, wayTo } = require(`${made}/paths.cjs`);
 const { refusal } = require(`${made}/address.cjs`);
 
 const read = (name) => readFileSync(path.join(root, name), "utf8");
@@ -97,6 +98,10 @@ test("an XML tree, and the node around the cursor", () => {
   const end = text.indexOf("</RoundRobin>");
   assert.equal(around(parts, end + 3).name, "RecoveryActions");
   assert.equal(around(parts, 0), undefined);
+  // Behind a leaf it is that leaf's still; where the next begins it is that.
+  const two = scan("xml", "<BehaviorTree ID='t'><A/><B/> </BehaviorTree>");
+  const named = (offset) => around(two, offset).name;
+  assert.deepEqual([22, 25, 29, 30].map(named), ["A", "B", "B", "t"]);
 });
 
 test("other XML is left alone, broken XML is not", () => {
@@ -156,4 +161,19 @@ test("a text goes to this machine, or through encryption", () => {
                      "file:///etc/passwd"]) {
     assert.notEqual(refusal(bad), "", bad);
   }
+});
+
+test("files have the same way from the tree on both sides", () => {
+  for (const [tree, file, way] of [
+    ["/home/me/trees/main.xml", "/home/me/trees/sub/dock.xml", "sub/dock.xml"],
+    ["/home/me/trees/main.xml", "/home/me/common/dock.xml",
+     "../common/dock.xml"],
+    ["/main.xml", "/dock.xml", "dock.xml"],
+    ["main.xml", "sub/dock.xml", "sub/dock.xml"],
+    ["trees/main.xml", "trees/dock.xml", "dock.xml"],
+    ["a/b/main.xml", "dock.xml", "../../dock.xml"]]) {
+    assert.equal(wayTo(folderOf(tree), file), way);
+    assert.equal(along(folderOf(tree), way), file);
+  }
+  assert.equal(along("/a/", "./b/../c.xml"), "/a/c.xml");
 });

@@ -4,6 +4,7 @@
 // on a node goes to its line; the cursor chooses the node that it is in.
 import * as vscode from "vscode";
 
+import { along, folderOf, wayTo } from "./paths";
 import { around, scan } from "./scan";
 import { Page, Session, told } from "./session";
 
@@ -15,6 +16,8 @@ const PAUSE = 400;  // milliseconds without an edit, before a picture is drawn a
 const BRIDGE = `<style>body { padding-left: 0; padding-right: 0; }</style>
 <script>(() => {
   const editor = acquireVsCodeApi();
+  editor.postMessage(
+    { tree: JSON.parse(document.getElementById("run").textContent).tree });
   addEventListener("btcheck-node",
     ({ detail }) => editor.postMessage({ node: detail }));
   const follow = () => {
@@ -47,12 +50,16 @@ const DRAWING = `<style>
 `;
 
 type Kind = "btcheck.run" | "btcheck.tree";
-interface Told { node?: { file: string; line: number; column: number } }
+interface Told {
+  tree?: string;  // what the page calls the tree's file
+  node?: { file: string; line: number; column: number };
+}
 
 class PageView {
   private readonly panel: vscode.WebviewPanel;
   private readonly rest: vscode.Disposable[] = [];
   private html = "";
+  private tree = "";
   private selected = 0;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
@@ -100,20 +107,19 @@ class PageView {
     this.timer = setTimeout(draw, PAUSE);
   }
 
-  // Other files of the tree are named as the tree includes them.
+  // The page's name of a file: other ones than the tree's have the server's.
   private fileOf(uri: vscode.Uri): string {
     if (uri.toString() === this.uri.toString()) return "";
-    const from = this.uri.path.split("/").slice(0, -1);
-    const to = uri.path.split("/");
-    const common = to.findIndex((name, i) => name !== from[i]);
-    return [...from.slice(common).map(() => ".."), ...to.slice(common)]
-      .join("/");
+    return along(folderOf(this.tree),
+                 wayTo(folderOf(this.uri.path), uri.path));
   }
 
-  private async goTo({ node }: Told): Promise<void> {
+  private async goTo({ node, tree }: Told): Promise<void> {
+    if (typeof tree === "string") this.tree = tree;
     if (!node || !Number.isInteger(node.line) || node.line < 1) return;
-    const uri = node.file === "" ? this.uri
-      : vscode.Uri.joinPath(this.uri, "..", node.file);
+    const uri = node.file === "" ? this.uri : this.uri.with({
+      path: along(folderOf(this.uri.path),
+                  wayTo(folderOf(this.tree), node.file)) });
     try {
       const document = await vscode.workspace.openTextDocument(uri);
       const line = Math.min(node.line, document.lineCount) - 1;
@@ -135,8 +141,12 @@ class PageView {
   private chooseAt({ document, selection }: vscode.TextEditor): void {
     const isTree = ["btf", "xml"].includes(document.languageId);
     if (!isTree || !this.panel.visible) return;
-    const part = around(scan(document.languageId, document.getText()),
-                        document.offsetAt(selection.active));
+    // Before the first word of a line one is at that word.
+    const { active } = selection;
+    const first = document.lineAt(active.line).firstNonWhitespaceCharacterIndex;
+    const part = around(
+      scan(document.languageId, document.getText()), document.offsetAt(
+        active.with({ character: Math.max(active.character, first) })));
     const line = part ? document.positionAt(part.begin).line + 1 : 0;
     if (line === this.selected) return;
     this.selected = line;

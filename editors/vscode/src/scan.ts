@@ -190,11 +190,11 @@ function xmlPart(tag: string, attributes: string, begin: number,
     nameBegin: tagBegin, nameEnd: tagBegin + tag.length, parts: [] };
 }
 
-/** The innermost node or tree around an offset. */
+/** The innermost node or tree around an offset, or just before it. */
 export function around(parts: readonly Part[], offset: number):
     Part | undefined {
-  for (const part of parts) {
-    if (offset < part.begin || offset >= part.end) continue;
+  for (const part of [...parts].reverse()) {
+    if (offset < part.begin || offset > part.end) continue;
     const inner = around(part.parts, offset);
     if (inner) return inner;
     return part.kind === "declaration" || part.kind === "section"
