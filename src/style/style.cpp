@@ -7,12 +7,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "check/findings/judgement.hpp"
+#include "check/findings/allowances.hpp"
 #include "ltl/rules/property.hpp"
 #include "model/btcpp/xml_text.hpp"
 #include "model/btf/forms.hpp"
@@ -30,32 +32,35 @@ Result<std::string> refused_style(Diagnostic why) {
   return {std::nullopt, {std::move(why)}};
 }
 
-// What comments allow at a place, however they are laid out.
+// What comments allow at each line, however they are laid out: a number for all
+// of it, 0 for nothing.
 class Allowances {
  public:
-  explicit Allowances(const SourceText& source)
-      : source_(source), is_any_(source.text().find(kAllow) != kNowhere) {}
-
-  bool is_any() const { return is_any_; }
-  const std::vector<std::string>& at(const SourceSpan& span) {
-    if (!is_any_ || span.line == line_) return found_;
-    line_ = span.line;
-    found_ = allowances_at(source_, line_);
-    for (std::string& each : found_) {
-      each.resize(std::min(each.find("-->"), each.size()));
-      each.resize(each.find_last_not_of(" \t\r") + 1);
+  explicit Allowances(const SourceText& source) {
+    const std::string_view text = source.text();
+    if (text.find(kAllow) == text.npos) return;
+    const auto lines = std::ranges::count(text, '\n') + 1;
+    bool is_below_comment = false;
+    for (int line = 1; line <= lines; ++line) {
+      const std::string written = source.line(line);
+      std::string_view allowed = allowed_in(written);
+      allowed = allowed.substr(0, allowed.find("-->"));
+      allowed = allowed.substr(0, allowed.find_last_not_of(" \t?") + 1);
+      const std::size_t above = is_below_comment ? by_line_.back() : 0;
+      by_line_.push_back(
+          above +
+          (allowed.empty() ? 0 : std::hash<std::string_view>()(allowed)));
+      is_below_comment = is_comment_line(written);
     }
-    std::ranges::sort(found_);
-    return found_;
+  }
+
+  std::size_t at(const SourceSpan& span) const {
+    const auto line = static_cast<std::size_t>(span.line) - 1;
+    return line < by_line_.size() ? by_line_[line] : 0;
   }
 
  private:
-  static constexpr std::size_t kNowhere = std::string_view::npos;
-
-  const SourceText& source_;
-  bool is_any_;
-  int line_ = 0;
-  std::vector<std::string> found_;
+  std::vector<std::size_t> by_line_;
 };
 
 // The places where findings can be told.
@@ -85,9 +90,8 @@ std::vector<SourceSpan> places_in(const btf::ParsedForms& parsed) {
 std::optional<SourceSpan> lost_allowance(
     const SourceText& before, const std::vector<SourceSpan>& places_before,
     const SourceText& after, const std::vector<SourceSpan>& places_after) {
-  Allowances allowed_before(before);
-  Allowances allowed_after(after);
-  if (!allowed_before.is_any()) return std::nullopt;
+  const Allowances allowed_before(before);
+  const Allowances allowed_after(after);
   for (std::size_t i = 0; i < places_before.size(); ++i) {
     const SourceSpan& place = places_before[i];
     if (allowed_before.at(place) != allowed_after.at(places_after[i])) {
@@ -121,12 +125,12 @@ Result<std::string> styled_xml_file(const InputFile& file,
     return {std::nullopt, named(parsed->diagnostics, file.name)};
   }
   const auto& elements = *parsed->value;
-  Allowances allowed(source);
+  const Allowances allowed(source);
   const auto keeps_lines = [&](const btcpp::XmlElement& element) {
-    if (!allowed.at(element.span).empty()) return true;
+    if (allowed.at(element.span) != 0) return true;
     return std::ranges::any_of(element.attributes,
                                [&](const btcpp::XmlAttribute& each) {
-                                 return !allowed.at(each.name_span).empty();
+                                 return allowed.at(each.name_span) != 0;
                                });
   };
   std::string text = style::styled_xml(source.text(), elements, keeps_lines);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "check/findings/allowances.hpp"
 #include "text/utf8.hpp"
 #include "text/wildcards.hpp"
 
@@ -15,26 +16,18 @@ namespace fs = std::filesystem;
 
 // --- Comments ------------------------------------------------------------
 
-// What a comment in the line allows, from its first code on; "" for nothing.
-std::string_view allowed_in(std::string_view line) {
-  const auto at = line.find(kAllow);
-  return at == line.npos ? std::string_view() : line.substr(at + kAllow.size());
-}
-
-// A line of comments alone, as far as one line tells.
-bool is_comment(std::string_view line) {
-  const auto first = line.find_first_not_of(" \t?");
-  if (first == line.npos) return false;
-  const std::string_view text = line.substr(first);
-  return text.starts_with("<!--") || text.starts_with(';') ||
-         text.ends_with("-->");
-}
-
+// In the line, or in those right above it.
 bool is_allowed_at(const SourceText& source, int line, std::string_view code) {
-  return std::ranges::any_of(allowances_at(source, line),
-                             [&](const std::string& allowed) {
-                               return allowed.find(code) != allowed.npos;
-                             });
+  const auto allows = [&](const std::string& text) {
+    return allowed_in(text).find(code) != std::string_view::npos;
+  };
+  if (allows(source.line(line))) return true;
+  for (int above = line - 1; above > 0; --above) {
+    const std::string text = source.line(above);
+    if (!is_comment_line(text)) return false;
+    if (allows(text)) return true;
+  }
+  return false;
 }
 
 // --- Levels --------------------------------------------------------------
@@ -89,17 +82,6 @@ std::string shortened_line(const std::string& line) {
 }
 
 }  // namespace
-
-std::vector<std::string> allowances_at(const SourceText& source, int line) {
-  std::vector<std::string> found;
-  for (int at = line; at > 0; --at) {
-    const std::string text = source.line(at);
-    if (at < line && !is_comment(text)) break;
-    const std::string_view allowed = allowed_in(text);
-    if (!allowed.empty()) found.emplace_back(allowed);
-  }
-  return found;
-}
 
 std::string placed(const std::string& directory, const std::string& file) {
   return (fs::path(directory) / file).lexically_normal().string();

@@ -65,14 +65,6 @@ struct Judged {
   std::vector<std::string> files;  // that findings could be about
 };
 
-// What a comment begins with that allows findings, and then names their codes.
-inline constexpr std::string_view kAllow = "btcheck: allow";
-// What comments allow at a line, in it or in those right above it: `<!--
-// btcheck: allow BT2208: the last recovery ends it -->`, in .btf files `;
-// btcheck: allow BT2205`. Each as it goes on from the first code to the end of
-// its line.
-std::vector<std::string> allowances_at(const SourceText& source, int line);
-
 // The file as it is compared: absolute, without `..`.
 std::string placed(const std::string& directory, const std::string& file);
 // The folder that it is in, likewise.
