@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "api/told.hpp"
 
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -109,6 +110,17 @@ Answer answer_of(const ReportedAnswer& of) {
   return {of.key,      of.question,
           of.answer,   verdict_of(of.verdict),
           of.is_fault, run_where_told(of.run, of.key)};
+}
+
+bool is_of_rule(const Finding& finding) {
+  return finding.code == rule::kViolated || finding.code == rule::kHolds ||
+         finding.code == rule::kUndecided;
+}
+
+std::string_view verdict_word(Verdict verdict) {
+  constexpr std::array<std::string_view, 3> kWords = {"HOLDS", "VIOLATED",
+                                                      "UNDECIDED"};
+  return kWords[static_cast<std::size_t>(verdict)];
 }
 
 }  // namespace btcheck::v1

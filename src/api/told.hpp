@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "btcheck/check.hpp"
 #include "report/formats/reported.hpp"
@@ -16,5 +17,10 @@ Finding finding_of(const btcheck::Finding& of);
 Rule rule_of(const ReportedProperty& of);
 Node node_of(const ReportedNode& of);
 Answer answer_of(const ReportedAnswer& of);
+
+// What has come of a rule: a verdict says it as well.
+bool is_of_rule(const Finding& finding);
+// "HOLDS"
+std::string_view verdict_word(Verdict verdict);
 
 }  // namespace btcheck::v1

@@ -9,7 +9,6 @@
 #include "ltl/rules/property.hpp"
 #include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/tree_file.hpp"
-#include "report/formats/reported.hpp"
 
 namespace btcheck::lsp {
 namespace {
@@ -24,12 +23,6 @@ int severity_number(v1::Level level) {
 // The run came to an end because an edit or a limit ended it.
 bool is_of_the_call(const v1::Finding& finding) {
   return finding.code.starts_with("BT90");
-}
-
-// What has come of a rule that is not as it is expected to be.
-bool is_of_rule(const v1::Finding& finding) {
-  return finding.code == rule::kViolated || finding.code == rule::kHolds ||
-         finding.code == rule::kUndecided;
 }
 
 }  // namespace
@@ -72,7 +65,7 @@ void DiagnosticList::add(const v1::Report& report, const Buffers& then) {
   // A rule is told at the node that breaks it; and where it stands.
   for (const v1::Rule& rule : report.rules) {
     for (v1::Finding finding : report.findings) {
-      if (!is_of_rule(finding) ||
+      if (!v1::is_of_rule(finding) ||
           !finding.message.starts_with(rule.name + " is ")) {
         continue;
       }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "api/told.hpp"
 #include "lsp/diagnostics.hpp"
 #include "lsp/features.hpp"
 #include "lsp/texts/rule_words.hpp"
@@ -286,11 +287,8 @@ Json hover_word(const View& view, std::size_t at) {
       }
       for (const v1::Rule& rule : look.check.report->rules) {
         if (rule.name != name) continue;
-        all =
-            fmt::format("**{}** {}", plain(name),
-                        rule.verdict == v1::Verdict::Holds      ? "HOLDS"
-                        : rule.verdict == v1::Verdict::Violated ? "VIOLATED"
-                                                                : "UNDECIDED");
+        all = fmt::format("**{}** {}", plain(name),
+                          v1::verdict_word(rule.verdict));
         if (!rule.note.empty()) all += "  \n" + plain(rule.note);
         if (!rule.reason.empty()) all += "  \n" + plain(rule.reason);
       }

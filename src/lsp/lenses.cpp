@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "api/told.hpp"
 #include "lsp/features.hpp"
 #include "lsp/words.hpp"
 
@@ -39,11 +40,10 @@ Json lens(const View& view, TextStretch at, const Json& command) {
   return {{"range", json_of(view.range(at))}, {"command", command}};
 }
 
-std::string_view verdict_text(const v1::Rule& rule) {
-  if (rule.verdict == v1::Verdict::Holds) {
-    return rule.is_vacuous ? "HOLDS, but nothing is ever asked of it" : "HOLDS";
-  }
-  return rule.verdict == v1::Verdict::Violated ? "VIOLATED" : "UNDECIDED";
+std::string verdict_text(const v1::Rule& rule) {
+  return fmt::format(
+      "{}{}", v1::verdict_word(rule.verdict),
+      rule.is_vacuous ? ", but nothing is ever asked of it" : "");
 }
 
 // Where the trees of the document begin, by what is asked of each.
@@ -162,7 +162,7 @@ Json hints(const View& view, const Range& range) {
     for (const v1::Rule& each : look.check.report->rules) {
       const auto at = view.now(each.where, look.check.texts);
       if (!at) continue;
-      std::string text(verdict_text(each));
+      std::string text = verdict_text(each);
       if (!each.note.empty()) text += ", " + each.note;
       if (!each.is_met) text += ", which is not what is expected";
       add(*at, text);

@@ -343,12 +343,7 @@ class PlaceSearch {
           token.kind != btf::FormKind::Quoted) {
         continue;
       }
-      const auto number = [](int value) {
-        return static_cast<std::size_t>(std::max(0, value));
-      };
-      const TextStretch part =
-          lines->stretch(number(token.span.line), number(token.span.column),
-                         number(token.span.length));
+      const TextStretch part = lines->stretch(token.span);
       std::string_view word = token.text;
       std::size_t skipped = 0;
       if (token.kind == btf::FormKind::Quoted && word.size() >= 2) {

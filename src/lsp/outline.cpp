@@ -96,9 +96,7 @@ struct FormsOf {
 
   const btf::Forms& forms() const { return parsed->forms; }
   TextStretch stretch(const SourceSpan& span) const {
-    return lines->stretch(static_cast<std::size_t>(std::max(0, span.line)),
-                          static_cast<std::size_t>(std::max(0, span.column)),
-                          static_cast<std::size_t>(std::max(0, span.length)));
+    return lines->stretch(span);
   }
   TextStretch of(const btf::Token& token) const { return stretch(token.span); }
   TextStretch whole(const btf::Form& form) const {

@@ -86,12 +86,7 @@ void add_forms(const View& view, std::vector<Coloured>& all) {
   const auto parsed = view.document.text.parsed<btf::ParsedForms>();
   bool is_head = false;
   for (const btf::Token& token : parsed->forms.tokens) {
-    const auto number = [](int value) {
-      return static_cast<std::size_t>(std::max(0, value));
-    };
-    const TextStretch part =
-        view.lines->stretch(number(token.span.line), number(token.span.column),
-                            number(token.span.length));
+    const TextStretch part = view.lines->stretch(token.span);
     if (token.kind == btf::FormKind::Keyword) {
       all.push_back({part, Colour::Property});
     } else if (token.kind == btf::FormKind::Word) {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/told.hpp"
 #include "report/formats/reported.hpp"
 #include "report/text/report.hpp"
 #include "report/text/type_list.hpp"
@@ -25,12 +26,6 @@ constexpr std::size_t kMostAllLines = 300;  // of a whole run, a simulation
 constexpr std::size_t kMostTypes = 400;
 
 // --- Findings and their names ----------------------------------------------
-
-// What a verdict says as well.
-bool is_of_rule(const v1::Finding& finding) {
-  return finding.code == rule::kViolated || finding.code == rule::kHolds ||
-         finding.code == rule::kUndecided;
-}
 
 bool is_question(const v1::Finding& finding) {
   return finding.level == v1::Level::Note && finding.code.starts_with("BT25");
@@ -214,12 +209,6 @@ void add_finding(const AskedTree& asked, const v1::Finding& finding,
                  {"node", finding.node},
                  {"message", finding.message},
                  {"has_repair", !finding.repair.empty()}});
-}
-
-std::string_view verdict_word(v1::Verdict verdict) {
-  constexpr std::array<std::string_view, 3> kWords = {"HOLDS", "VIOLATED",
-                                                      "UNDECIDED"};
-  return kWords[static_cast<std::size_t>(verdict)];
 }
 
 // Those that are as expected are counted.

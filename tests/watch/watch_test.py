@@ -463,6 +463,9 @@ class Watch(unittest.TestCase):
         self.assertEqual(watched.end()[0], 0)
 
     def test_waiting_costs_nothing(self):
+        # Above a repository nothing is looked at: else whatever happens in the
+        # folder of temporary files is heard.
+        (self.folder / ".git").mkdir()
         watched = self.watched("trees")
 
         def spent():

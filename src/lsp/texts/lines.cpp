@@ -78,6 +78,13 @@ TextStretch Lines::stretch(std::size_t line_number, std::size_t column,
   return {begin, offset({number, first + length}, Encoding::Utf32)};
 }
 
+TextStretch Lines::stretch(const SourceSpan& span) const {
+  const auto number = [](int value) {
+    return static_cast<std::size_t>(std::max(0, value));
+  };
+  return stretch(number(span.line), number(span.column), number(span.length));
+}
+
 Shift::Shift(std::string_view before, std::string_view after) {
   const auto [left, right] = std::ranges::mismatch(before, after);
   begin_ = static_cast<std::size_t>(left - before.begin());

@@ -57,6 +57,7 @@ class Lines {
   // line 0 the first line.
   TextStretch stretch(std::size_t line, std::size_t column,
                       std::size_t length) const;
+  TextStretch stretch(const SourceSpan& span) const;
 
   std::string_view text() const { return text_; }
   // Bytes [begin of line, behind its end).
