@@ -27,15 +27,23 @@ bool is_of_the_call(const v1::Finding& finding) {
 
 }  // namespace
 
-std::optional<TextStretch> moved(const v1::Position& place, const Buffers& then,
-                                 const Buffers& now) {
-  const auto before = then.find(place.file);
-  const auto after = now.find(place.file);
-  if (before == then.end() || after == now.end()) return std::nullopt;
-  const TextStretch part = before->second.parsed<Lines>()->stretch(
-      place.line, place.column, place.length);
-  if (before->second == after->second) return part;
-  return Shift(before->second.text(), after->second.text()).moved(part);
+std::optional<TextStretch> Movement::operator()(const v1::Position& place) {
+  const auto [known, is_new] = files_.try_emplace(place.file);
+  OfFile& file = known->second;
+  if (is_new) {
+    const auto before = then_.find(place.file);
+    const auto after = now_.find(place.file);
+    if (before != then_.end() && after != now_.end()) {
+      file.lines = before->second.parsed<Lines>();
+      if (!(before->second == after->second)) {
+        file.shift.emplace(before->second.text(), after->second.text());
+      }
+    }
+  }
+  if (!file.lines) return std::nullopt;
+  const TextStretch part =
+      file.lines->stretch(place.line, place.column, place.length);
+  return file.shift ? file.shift->moved(part) : part;
 }
 
 std::string message_of(const v1::Finding& finding) {
@@ -53,14 +61,16 @@ void DiagnosticList::add_file(const std::string& path, FileKind kind) {
   } else if (kind == FileKind::Rules) {
     found = read_properties(path, text->second).diagnostics;
   }
+  Movement unmoved(texts_, texts_);
   for (const Diagnostic& each : found) {
-    add(v1::finding_of(btcheck::finding_of(each)), texts_);
+    add(v1::finding_of(btcheck::finding_of(each)), unmoved);
   }
 }
 
 void DiagnosticList::add(const v1::Report& report, const Buffers& then) {
+  Movement moved(then, texts_);
   for (const v1::Finding& finding : report.findings) {
-    if (!is_of_the_call(finding)) add(finding, then);
+    if (!is_of_the_call(finding)) add(finding, moved);
   }
   // A rule is told at the node that breaks it; and where it stands.
   for (const v1::Rule& rule : report.rules) {
@@ -70,13 +80,13 @@ void DiagnosticList::add(const v1::Report& report, const Buffers& then) {
         continue;
       }
       finding.where = rule.where;
-      add(finding, then);
+      add(finding, moved);
     }
   }
 }
 
-void DiagnosticList::add(const v1::Finding& finding, const Buffers& then) {
-  const auto at = moved(finding.where, then, texts_);
+void DiagnosticList::add(const v1::Finding& finding, Movement& moved) {
+  const auto at = moved(finding.where);
   if (!at) return;
   const std::string& path = finding.where.file;
   const std::string message = message_of(finding);
@@ -91,7 +101,7 @@ void DiagnosticList::add(const v1::Finding& finding, const Buffers& then) {
   std::size_t count = 0;
   if (finding.run) {
     for (const v1::Step& step : finding.run->steps) {
-      const auto place = moved(step.where, then, texts_);
+      const auto place = moved(step.where);
       if (!step.is_chosen || !place || count++ >= kMostRelated) continue;
       const auto of = texts_.at(step.where.file).parsed<Lines>();
       related.push(

@@ -18,10 +18,25 @@
 
 namespace btcheck::lsp {
 
-// Where a place of an older text stands in that of today. Nothing where the
-// file is unknown.
-std::optional<TextStretch> moved(const v1::Position& place, const Buffers& then,
-                                 const Buffers& now);
+// Where places of older texts stand in those of today.
+class Movement {
+ public:
+  // Both must outlive it.
+  Movement(const Buffers& then, const Buffers& now) : then_(then), now_(now) {}
+
+  // Nothing where the file is unknown.
+  std::optional<TextStretch> operator()(const v1::Position& place);
+
+ private:
+  struct OfFile {
+    std::shared_ptr<const Lines> lines;  // of the text then
+    std::optional<Shift> shift;          // nothing where it is the same
+  };
+
+  const Buffers& then_;
+  const Buffers& now_;
+  std::map<std::string, OfFile> files_;
+};
 
 // What is to be said of a finding: its message and what helps.
 std::string message_of(const v1::Finding& finding);
@@ -49,7 +64,7 @@ class DiagnosticList {
     std::string json;
   };
 
-  void add(const v1::Finding& finding, const Buffers& then);
+  void add(const v1::Finding& finding, Movement& moved);
 
   const Buffers& texts_;
   const Documents& documents_;

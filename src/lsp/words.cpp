@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "lsp/diagnostics.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "report/text/type_list.hpp"
 #include "text/utf8.hpp"
@@ -275,9 +276,10 @@ std::vector<NodeHere> nodes_at(const View& view, const std::string& path,
   for (const Look& look : view.looks) {
     if (!look.description) continue;
     const auto& nodes = look.description->nodes;
+    Movement moved(*look.described, *view.texts);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (nodes[i].where.file != path) continue;
-      const auto at = view.now(nodes[i].where, look.described);
+      const auto at = moved(nodes[i].where);
       if (at && at->begin == begin) all.push_back(node_here(look, i));
     }
   }

@@ -174,7 +174,7 @@ Range View::range_in(const std::string& path, TextStretch part) const {
 
 std::optional<TextStretch> View::now(const v1::Position& place,
                                      const Texts& then) const {
-  return moved(place, *then, *texts);
+  return Movement(*then, *texts)(place);
 }
 
 // --- The editor tells -------------------------------------------------------
@@ -528,7 +528,11 @@ void Workbench::lint(const Subject& subject, const Texts& texts,
   const bool is_due = has_news();
   lock.unlock();
   if (is_due) publish();
-  if (report->outcome != v1::Outcome::BadInput) {
+  lock.lock();
+  const auto look = looks_.find(subject);
+  const bool is_old = look == looks_.end() || !look->second.is_linted();
+  lock.unlock();
+  if (report->outcome != v1::Outcome::BadInput && !is_old) {
     describe(subject, request, options, texts);
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "model/btcpp/attributes.hpp"
@@ -232,12 +233,16 @@ std::vector<DescribedEntry> described_entries(const BehaviorTree& tree) {
     if (use.writes) add_once(entries[use.entry].writers, use.node);
     if (use.reads) add_once(entries[use.entry].readers, use.node);
   }
+  std::unordered_map<std::string_view, std::size_t> count;
+  std::unordered_map<std::string_view, const StateVariable*> variables;
+  for (const std::string& name : tree.entries) ++count[name];
+  for (const StateVariable& each : tree.variables) {
+    variables.try_emplace(each.name, &each);
+  }
   for (DescribedEntry& entry : entries) {
-    const auto variable =
-        std::ranges::find(tree.variables, entry.name, &StateVariable::name);
-    const bool is_only = std::ranges::count(tree.entries, entry.name) == 1;
-    if (is_only && variable != tree.variables.end()) {
-      entry.values = variable->states;
+    const auto variable = variables.find(entry.name);
+    if (count[entry.name] == 1 && variable != variables.end()) {
+      entry.values = variable->second->states;
     }
   }
   return entries;
