@@ -84,7 +84,8 @@ class Session(unittest.TestCase):
     def opened(self, *names):
         for name in names:
             self.editor.open(name)
-        self.editor.checked(names[-1])
+        for name in names:
+            self.editor.checked(name)
         return self.editor
 
 

@@ -177,6 +177,7 @@ in some run, and shows that run.
 
   btcheck TREE                   what is wrong with a tree
   btcheck FOLDER                 the same of all trees in a folder
+  btcheck --watch FOLDER         and again, whenever a file in it is saved
   btcheck TREE --prop RULES.ltl  check rules; -e 'never land.failure': one rule
   btcheck conform LOG TREE       can the tree have written this log of a robot?
   btcheck explain BT2208         what the code in a message means
