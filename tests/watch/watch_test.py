@@ -463,9 +463,12 @@ class Watch(unittest.TestCase):
         self.assertEqual(watched.end()[0], 0)
 
     def test_waiting_costs_nothing(self):
-        # Above a repository nothing is looked at: else whatever happens in the
-        # folder of temporary files is heard.
-        (self.folder / ".git").mkdir()
+        # Folders above are heard as well, and in that of temporary files
+        # others are at work.
+        quiet = tempfile.mkdtemp(prefix="quiet-", dir=os.path.dirname(PROGRAM))
+        self.addCleanup(shutil.rmtree, quiet, True)
+        self.folder = pathlib.Path(quiet)
+        shutil.copytree(self.trees, self.folder / "trees")
         watched = self.watched("trees")
 
         def spent():
