@@ -15,6 +15,7 @@ int run_program(int argc, const char* const* argv);
 
 // Where the command has a file of its own.
 ExitCode run_check(const Options& options);
+ExitCode run_several(const Options& options);
 ExitCode run_demo(const Options& options);
 // Met when nothing is found, Missed after a warning, BadInput after an error.
 // Errors are shown on stderr, findings on stdout.

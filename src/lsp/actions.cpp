@@ -246,13 +246,8 @@ std::optional<Json> rule(const View& view, const FindingHere& here) {
                   plain_word(all[found->number].label), form->suffix, body);
   // Into the rules that there are, or into new ones beside the tree.
   std::string path = fs::path(tree).replace_extension(".ltl").string();
-  for (const auto& [known, known_text] : *view.texts) {
-    const bool is_about =
-        kind_of(known, {}) == FileKind::Rules &&
-        std::ranges::any_of(view.looks, [&](const Look& look) {
-          return look.subject.rules == known;
-        });
-    if (is_about) path = known;
+  for (const Look& look : view.looks) {
+    if (!look.subject.rules.empty()) path = look.subject.rules;
   }
   Json changes = Json::array();
   std::string added = text;

@@ -10,6 +10,7 @@
 #include "cli/inputs/inputs.hpp"
 #include "model/tree_file.hpp"
 #include "text/numbers.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck::lsp {
 namespace {

@@ -212,8 +212,11 @@ class PlaceSearch {
         break;
     }
     std::ranges::sort(found_, {}, &Place::key);
-    const auto twice = std::ranges::unique(found_, {}, &Place::key);
-    found_.erase(twice.begin(), twice.end());
+    const auto is_same = [](const Place& one, const Place& other) {
+      return one.key() == other.key();
+    };
+    found_.erase(std::unique(found_.begin(), found_.end(), is_same),
+                 found_.end());
     return std::move(found_);
   }
 

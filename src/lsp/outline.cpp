@@ -18,7 +18,6 @@ namespace symbols_of {
 constexpr int kModule = 2;
 constexpr int kClass = 5;
 constexpr int kMethod = 6;
-constexpr int kProperty = 7;
 constexpr int kFunction = 12;
 constexpr int kVariable = 13;
 constexpr int kConstant = 14;

@@ -315,9 +315,10 @@ void Workbench::edited(const std::string& path, bool concerns_others) {
   // What is edited comes first.
   const auto own = subjects_.find(path);
   if (own != subjects_.end()) {
-    std::ranges::stable_partition(order_, [&](const Subject& each) {
-      return std::ranges::count(own->second, each) > 0;
-    });
+    std::stable_partition(order_.begin(), order_.end(),
+                          [&](const Subject& each) {
+                            return std::ranges::count(own->second, each) > 0;
+                          });
   }
   wake();
 }
