@@ -364,8 +364,9 @@ scene("so are the files that it includes", async () => {
   await page.waitForFunction(() => [...document.querySelectorAll(".tab.active")]
     .some((tab) => tab.textContent.includes("dock.xml")));
   await cursorIsAt(4);
-  await page.locator(".editor-group-container.active .view-line")
-    .filter({ hasText: "Stop" }).click();
+  // Whichever of the two windows has the focus by now.
+  await page.locator(".editor-group-container .view-line")
+    .filter({ hasText: "Stop" }).first().click();
   await cursorIsAt(5);
   await drawing.waitForFunction(() => document.querySelector(
     ".node.selected")?.textContent.includes("Stop"));
