@@ -64,8 +64,7 @@ Json edit_of_files(const View& view, const std::map<std::string, Json>& edits) {
   return {{"changes", changes}};
 }
 
-// --- Repairs
-// --------------------------------------------------------------------
+// --- Repairs ---------------------------------------------------------------
 
 // The line ends of a text.
 std::string_view line_end(std::string_view text) {
@@ -116,8 +115,7 @@ std::optional<Json> repair(const View& view, const FindingHere& here) {
               {"edit", edit_of_files(view, edits)}};
 }
 
-// --- Comments that allow
-// --------------------------------------------------------
+// --- Comments that allow ---------------------------------------------------
 
 constexpr std::string_view kReason = "why this is meant";
 
@@ -163,8 +161,7 @@ std::optional<Json> allowance(const View& view, const FindingHere& here) {
               {"edit", edit_of_files(view, {{view.document.path, edits}})}};
 }
 
-// --- Rules
-// ----------------------------------------------------------------------
+// --- Rules -----------------------------------------------------------------
 
 // A rule that is violated while the finding is there. `{0}` is the node, `{1}`
 // the root of its tree.

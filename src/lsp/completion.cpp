@@ -60,8 +60,7 @@ class Items {
   Json all_ = Json::array();
 };
 
-// --- XML
-// ------------------------------------------------------------------------
+// --- XML -------------------------------------------------------------------
 
 // In a snippet these mean something.
 std::string escaped(std::string_view text) {
@@ -343,8 +342,7 @@ Json complete_xml(const View& view, std::size_t at, bool takes_snippets) {
   return items.list();
 }
 
-// --- Rules
-// ----------------------------------------------------------------------
+// --- Rules -----------------------------------------------------------------
 
 Json complete_rules(const View& view, std::size_t at, bool takes_snippets) {
   const std::string_view text = view.document.text.text();
@@ -407,8 +405,7 @@ Json complete_rules(const View& view, std::size_t at, bool takes_snippets) {
   return items.list();
 }
 
-// --- .btf and contracts
-// -----------------------------------------------------------
+// --- .btf and contracts ----------------------------------------------------
 
 // Those that the file defines: (defun charge (level) ...).
 void add_functions(const View& view, Items& items) {

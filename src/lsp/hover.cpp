@@ -44,8 +44,7 @@ Json markdown(const View& view, const std::string& text, TextStretch part) {
           {"range", json_of(view.range(part))}};
 }
 
-// --- What is proven
-// ---------------------------------------------------------------
+// --- What is proven --------------------------------------------------------
 
 // "can succeed", "never fails"; nothing where it cannot be asked.
 void add_answer(const std::optional<v1::Verdict>& verdict, std::string_view can,
@@ -74,8 +73,7 @@ std::string proven_text(const NodeHere& here) {
   return fmt::format("Proven over all runs: {}.", fmt::join(all, ", "));
 }
 
-// --- Entries
-// ------------------------------------------------------------------------
+// --- Entries ---------------------------------------------------------------
 
 std::string names_of(const Look& look, const std::vector<std::size_t>& nodes) {
   std::vector<std::string> all;
@@ -125,8 +123,7 @@ std::string entry_named(const View& view, std::string_view name,
                           static_cast<std::size_t>(found - entries.begin()));
 }
 
-// --- Types and ports
-// ----------------------------------------------------------------
+// --- Types and ports -------------------------------------------------------
 
 std::string port_line(const PortWord& port) {
   std::string text = fmt::format("- {}", code(port.name));
@@ -176,8 +173,7 @@ std::string findings_text(const View& view, TextStretch word) {
   return text;
 }
 
-// --- XML
-// ----------------------------------------------------------------------------
+// --- XML -------------------------------------------------------------------
 
 std::optional<Json> hover_attribute(const View& view, const XmlScan& scan,
                                     std::size_t element,
@@ -255,8 +251,7 @@ Json hover_xml(const View& view, std::size_t at) {
   return text.empty() ? Json::null() : markdown(view, text, word);
 }
 
-// --- Rules and .btf
-// -------------------------------------------------------------------
+// --- Rules and .btf --------------------------------------------------------
 
 std::string node_text(const NodeHere& here) {
   const v1::DescribedNode& node = here.node();

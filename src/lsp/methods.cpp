@@ -25,8 +25,7 @@ std::atomic<bool> is_ending = false;
 std::atomic<bool> takes_snippets = false;
 std::atomic<bool> registers_watchers = false;
 
-// --- Parameters
-// -----------------------------------------------------------------
+// --- Parameters ------------------------------------------------------------
 
 // members of members: {"a", "b"} of {"a": {"b": 1}}
 const JsonValue* within(const JsonValue& value,
@@ -68,8 +67,7 @@ Position place_in(const JsonValue& params) {
   return position_in(params, "position");
 }
 
-// --- The beginning and the end
-// ------------------------------------------------------
+// --- The beginning and the end ---------------------------------------------
 
 Json capabilities(Encoding encoding) {
   Json triggers = Json::array();
@@ -166,8 +164,7 @@ std::string shutdown(const JsonValue&, Work&) {
   return "null";
 }
 
-// --- Texts
-// ------------------------------------------------------------------------
+// --- Texts -----------------------------------------------------------------
 
 void did_open(const JsonValue& params) { workbench().open(params); }
 void did_change(const JsonValue& params) { workbench().change(params); }
@@ -184,8 +181,7 @@ void did_change_settings(const JsonValue& params) {
   workbench().set(wishes_of(within(params, {"settings", "btcheck"})));
 }
 
-// --- Questions
-// ----------------------------------------------------------------------
+// --- Questions -------------------------------------------------------------
 
 template <Json (*Answer)(const View&, Position)>
 std::string at_place(const JsonValue& params, Work&) {
@@ -245,8 +241,7 @@ std::string formatting(const JsonValue& params, Work&) {
   return formatted(workbench().view(params)).text();
 }
 
-// --- Pages
-// --------------------------------------------------------------------------
+// --- Pages -----------------------------------------------------------------
 
 Json page(std::string_view title, const std::string& html) {
   return {{"title", title}, {"html", html}};

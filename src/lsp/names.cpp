@@ -64,8 +64,7 @@ void add_script_words(const XmlScan& scan, TextStretch value,
   }
 }
 
-// --- What stands at a place
-// --------------------------------------------------------
+// --- What stands at a place ------------------------------------------------
 
 std::optional<Named> entry_of(const XmlScan& scan, std::size_t element,
                               std::string name, TextStretch at) {
@@ -180,8 +179,7 @@ std::optional<Named> named_in_forms(const View& view, std::size_t at) {
   return Named{NameKind::Word, name, word, {}};
 }
 
-// --- All places
-// ----------------------------------------------------------------------
+// --- All places ------------------------------------------------------------
 
 class PlaceSearch {
  public:

@@ -34,8 +34,7 @@ Json symbol(const View& view, std::string_view name, std::string_view detail,
           {"selectionRange", json_of(view.range(word))}};
 }
 
-// --- XML
-// ----------------------------------------------------------------------
+// --- XML -------------------------------------------------------------------
 
 Json xml_symbol(const View& view, const XmlScan& scan, std::size_t i) {
   const ScannedElement& element = scan[i];
@@ -86,8 +85,7 @@ Json xml_symbols(const View& view) {
   return all;
 }
 
-// --- .btf and contracts
-// ---------------------------------------------------------
+// --- .btf and contracts ----------------------------------------------------
 
 struct FormsOf {
   explicit FormsOf(const FileText& text)
@@ -163,8 +161,7 @@ Json form_symbols(const View& view) {
   return all;
 }
 
-// --- Rules
-// ----------------------------------------------------------------------
+// --- Rules -----------------------------------------------------------------
 
 // An item of a file of rules: from its word to the next.
 struct RuleItem {
@@ -215,8 +212,7 @@ Json rule_symbols(const View& view) {
   return all;
 }
 
-// --- Stretches
-// ------------------------------------------------------------------
+// --- Stretches -------------------------------------------------------------
 
 void add_folding(const View& view, TextStretch part, std::string_view kind,
                  Json& all, bool keeps_last = false) {

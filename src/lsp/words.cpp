@@ -240,8 +240,7 @@ std::optional<TypeWord> type_named(const View& view, std::string_view id) {
   return std::nullopt;
 }
 
-// --- Nodes
-// --------------------------------------------------------------------
+// --- Nodes -----------------------------------------------------------------
 
 const Look* described_look(const View& view) {
   const auto found = std::ranges::find_if(
@@ -330,8 +329,7 @@ std::size_t entry_of(const NodeHere& here, std::string_view name) {
              : static_cast<std::size_t>(found - tree.entries.begin());
 }
 
-// --- Words
-// ----------------------------------------------------------------------
+// --- Words -----------------------------------------------------------------
 
 bool is_word_letter(char c) {
   return is_letter(c) || is_digit(c) || c == '_' ||

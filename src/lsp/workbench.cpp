@@ -201,7 +201,7 @@ void Workbench::begin(std::vector<std::string> folders, Encoding encoding,
   folders_ = std::move(folders);
   folders_changed_ = true;
   is_begun_ = true;
-  changed_.notify_all();
+  wake();
 }
 
 void Workbench::set(const Wishes& wishes) {
@@ -253,11 +253,7 @@ void Workbench::close(const JsonValue& params) {
   const std::scoped_lock lock(mutex_);
   const std::string path = documents_.close(params);
   untold_.erase(path);
-  const auto file = read_file(path);
-  const bool concerns_others = file.value
-                                   ? workspace_.put(path, file.value->text)
-                                   : workspace_.remove(path);
-  edited(path, concerns_others);
+  edited(path, take_from_disk(path));
   find_subjects();
 }
 
@@ -268,16 +264,16 @@ void Workbench::change_files(const JsonValue& params) {
   for (const JsonValue& change : changes->items) {
     const std::string path = path_of(change.word("uri"));
     if (documents_.find(path) != nullptr) continue;
-    const auto file = read_file(path);
-    if (file.value &&
-        kind_of(path, file.value->text.text()) != FileKind::Other) {
-      workspace_.put(path, file.value->text);
-    } else {
-      workspace_.remove(path);
-    }
+    take_from_disk(path);
     // Settings and packages are nothing that is known here.
     edited(path, true);
   }
+}
+
+bool Workbench::take_from_disk(const std::string& path) {
+  const auto file = read_file(path);
+  return file.value ? workspace_.put(path, file.value->text)
+                    : workspace_.remove(path);
 }
 
 // --- What is known -----------------------------------------------------------
@@ -429,8 +425,7 @@ Options Workbench::options_for(const Subject& subject) const {
   return options;
 }
 
-// --- Threads
-// ------------------------------------------------------------------
+// --- Threads ---------------------------------------------------------------
 
 // Files that have changed and no editor has told it.
 void Workbench::reread_files() {
@@ -452,11 +447,7 @@ void Workbench::reread_files() {
     const bool is_other = !is_new && known->second != stamp;
     known->second = stamp;
     if (is_other && documents_.find(path) == nullptr) {
-      const auto file = read_file(path);
-      const bool concerns_others = file.value
-                                       ? workspace_.put(path, file.value->text)
-                                       : workspace_.remove(path);
-      edited(path, concerns_others);
+      edited(path, take_from_disk(path));
     }
     lock.unlock();
   }
@@ -626,8 +617,7 @@ void Workbench::sweep_loop() {
   }
 }
 
-// --- Telling
-// ------------------------------------------------------------------
+// --- Telling ---------------------------------------------------------------
 
 void Workbench::notify(std::string_view method, const Json& params) {
   wire_.send(notification_text(method, params));

@@ -137,6 +137,8 @@ class Workbench {
   void check_loop();
   void sweep_loop();
   // These have the lock.
+  // The file as it is on the disk; as Workspace::put and remove.
+  bool take_from_disk(const std::string& path);
   void edited(const std::string& path, bool concerns_others);
   void find_subjects();
   bool concerns(const Look& look, const std::string& path) const;
