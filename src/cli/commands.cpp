@@ -134,7 +134,7 @@ ExitCode run_export(const Options& options) {
   if (!inputs) return ExitCode::BadInput;
   auto model = export_model(inputs->tree, inputs->properties,
                             {options.format, options.ticks, options.assume,
-                             words_of_export(options.words)});
+                             words_of_export(options.words), options.space});
   const Judged judged =
       judge(inputs->tree, inputs->options.judgement, model.diagnostics);
   show(options, model.diagnostics);

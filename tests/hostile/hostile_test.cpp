@@ -226,7 +226,7 @@ TEST_CASE("a text of several lines is one line wherever it is shown") {
     }
     for (const std::string format :
          {"dot", "svg", "mermaid", "automata", "smv", "fiacre", "hfiacre",
-          "xml", "btf", "monitor-cpp", "ltsmin"}) {
+          "xml", "btf", "monitor", "monitor-cpp", "ltsmin"}) {
       lines.push_back("export " + tree + " --prop r.ltl --to " + format);
     }
   }

@@ -181,6 +181,7 @@ const std::map<std::string_view, std::string> kValues = {
     {"--stats", "--stats json"},
     {"--export", "--export aut=new.aut"},
     {"--to", "--to smv"},
+    {"--namespace", "--namespace robot"},
     {"-o", "-o new.txt"},
     {"--seed", "--seed 7"},
     {"--script", "--script more.ltl"},

@@ -23,6 +23,7 @@
 #include "shell.hpp"
 #include "temporary_folder.hpp"
 #include "trace/run/record.hpp"
+#include "trace/watch/monitor_table.hpp"
 #include "trace/watch/watched_run.hpp"
 
 namespace btcheck::cpp_monitor_test {
@@ -235,12 +236,12 @@ TEST_CASE("monitors as C++ say of logs what trace says") {
   REQUIRE(rules.value);
   const SourceText source("r.ltl", kRules);
   const RecordedRun nodes = recorded_tree(*tree.value, input);
-  const auto header = cpp_monitor(*tree.value, nodes, *rules.value, source);
-  for (const Diagnostic& found : header.diagnostics) MESSAGE(render(found));
-  REQUIRE(header.value);
+  const auto table = monitor_table(*tree.value, nodes, *rules.value, source);
+  for (const Diagnostic& found : table.diagnostics) MESSAGE(render(found));
+  REQUIRE(table.value);
 
   const TemporaryFolder folder;
-  std::ofstream(folder.path() / "monitor.hpp") << *header.value;
+  std::ofstream(folder.path() / "monitor.hpp") << cpp_monitor(*table.value, "");
   std::ofstream(folder.path() / "main.cpp") << kDriver;
   std::string events;
   std::string expected;
@@ -299,8 +300,8 @@ TEST_CASE("what a log does not show is no monitor") {
   const auto refusal = [&](const std::string& text) {
     const auto rules = read_properties("r.ltl", text);
     REQUIRE(rules.value);
-    const auto made = cpp_monitor(*tree.value, nodes, *rules.value,
-                                  SourceText("r.ltl", text));
+    const auto made = monitor_table(*tree.value, nodes, *rules.value,
+                                    SourceText("r.ltl", text));
     CHECK(!made.value);
     REQUIRE(!made.diagnostics.empty());
     return made.diagnostics.front().code;
@@ -393,17 +394,18 @@ constexpr std::string_view kPatrol = R"(<root BTCPP_format="4">
 // A folder with headers of rules for that tree, and the stand-in.
 class Program {
  public:
-  void export_header(const std::string& file, const std::string& rules) {
+  void export_header(const std::string& file, const std::string& rules,
+                     const std::string& space = "") {
     const InputFile input{"patrol.xml", std::string(kPatrol)};
     auto tree = read_tree(input.name, input.text, {});
     REQUIRE(tree.value);
     const auto read = read_properties(file + ".ltl", rules);
     REQUIRE(read.value);
-    const auto header =
-        cpp_monitor(*tree.value, recorded_tree(*tree.value, TreeInput(input)),
-                    *read.value, SourceText(file + ".ltl", rules));
-    REQUIRE(header.value);
-    write(file + ".hpp", *header.value);
+    const auto table =
+        monitor_table(*tree.value, recorded_tree(*tree.value, TreeInput(input)),
+                      *read.value, SourceText(file + ".ltl", rules));
+    REQUIRE(table.value);
+    write(file + ".hpp", cpp_monitor(*table.value, space));
   }
   void write(const std::string& file, std::string_view text) {
     std::ofstream(folder_.path() / file) << text;
@@ -468,7 +470,7 @@ TEST_CASE("a monitor refuses another tree, by its first node that differs") {
     }
   )cpp");
   const std::string wrong =
-      "btcheck_monitor: another tree runs than the one of the rules: ";
+      "btcheck: another tree runs than the one of the rules: ";
   CHECK(program.run() ==
         "fits\n" + wrong +
             "its node 1 is `Sequence` (Fallback) at the top, where patrol.xml "
@@ -527,22 +529,25 @@ TEST_CASE("a deadline is told in the tick in which it is lost") {
     }
   )cpp");
   CHECK(program.run() ==
-        "btcheck_monitor: begin_tick() comes before the first change\n"
+        "btcheck: begin_tick() comes before the first change\n"
         "first 2 in tick 1\n"
         "end of tick 1\n"
         "now 2 in tick 2\n"
         "end of tick 2\n"
         "soon 2 in tick 3\n"
         "end of tick 3\n"
-        "btcheck_monitor: there is no node 6\n");
+        "btcheck: there is no node 6\n");
 }
 
 TEST_CASE("several monitors stand in one program, and in one file") {
   Program program;
   program.export_header("one", "property a: never Move.failure");
   program.export_header("two", "property b: never Move.success");
+  program.export_header("three", "property c: never Move.ticked",
+                        "robot::rules");
   program.write("main.cpp", R"cpp(
 #include "one.hpp"
+#include "three.hpp"
 #include "two.hpp"
 #include <iostream>
 
@@ -550,7 +555,7 @@ TEST_CASE("several monitors stand in one program, and in one file") {
     int main() {
       std::cout << btcheck_monitor::of_one_for_patrol::Monitor::name(0)
                 << btcheck_monitor::of_two_for_patrol::Monitor::name(0)
-                << alone() << "\n";
+                << robot::rules::Monitor::name(0) << alone() << "\n";
     }
   )cpp");
   program.write("alone.cpp", R"cpp(
@@ -560,7 +565,7 @@ TEST_CASE("several monitors stand in one program, and in one file") {
       return btcheck_monitor::Monitor::name(0);
     }
   )cpp");
-  CHECK(program.run() == "abb\n");
+  CHECK(program.run() == "abcb\n");
 }
 
 TEST_CASE("what a log does not show is told once for each cause") {
@@ -571,8 +576,8 @@ TEST_CASE("what a log does not show is told once for each cause") {
   const auto rules = read_properties("demo.ltl", text);
   REQUIRE(rules.value);
   const auto made =
-      cpp_monitor(*tree.value, recorded_tree(*tree.value, TreeInput(file)),
-                  *rules.value, SourceText("demo.ltl", text));
+      monitor_table(*tree.value, recorded_tree(*tree.value, TreeInput(file)),
+                    *rules.value, SourceText("demo.ltl", text));
   CHECK(!made.value);
   REQUIRE(made.diagnostics.size() == 1);
   CHECK(made.diagnostics[0].code == "BT1805");

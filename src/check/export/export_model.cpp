@@ -27,6 +27,7 @@
 #include "trace/pictures/pictures.hpp"
 #include "trace/run/record.hpp"
 #include "trace/watch/cpp_monitor.hpp"
+#include "trace/watch/monitor_table.hpp"
 
 namespace btcheck {
 namespace {
@@ -237,8 +238,12 @@ class ModelExport {
       case ExportFormat::Xml:
       case ExportFormat::Btf:
         return converted();
-      case ExportFormat::MonitorCpp:
+      case ExportFormat::Monitor:
         return monitors();
+      case ExportFormat::MonitorCpp: {
+        const std::string table = monitors();
+        return table.empty() ? "" : cpp_monitor(table, options_.space);
+      }
       case ExportFormat::Ltsmin:
         return finished(
             {ltsmin_text(tree_input_.name, options_.words, *network_,
@@ -311,15 +316,15 @@ class ModelExport {
     return finished(hfiacre_text(*tree_, *network_), "/* ", " */");
   }
 
-  // The rules as monitors in C++.
+  // The rules as a table.
   std::string monitors() {
     if (inputs_.size() != 1) {
       return refused(inputs_.empty() ? "there are no rules to be monitored"
-                                     : "one header has the rules of one file",
+                                     : "a table has the rules of one file",
                      "write " + word(Choice::Rules, "RULES.ltl"));
     }
-    auto text = cpp_monitor(*tree_, recorded_tree(*tree_, tree_input_),
-                            inputs_[0]->file, inputs_[0]->source);
+    auto text = monitor_table(*tree_, recorded_tree(*tree_, tree_input_),
+                              inputs_[0]->file, inputs_[0]->source);
     add(std::move(text.diagnostics));
     return text.value.value_or("");
   }

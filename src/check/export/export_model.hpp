@@ -19,9 +19,10 @@ namespace btcheck {
 
 // In the order of `--to`. The first three draw the tree alone, Automata (in
 // Graphviz's language) also what it is lowered to; Xml and Btf write it in the
-// other language. MonitorCpp writes no model, but what watches the rules in the
-// program that runs the tree; Ltsmin the command lines with which LTSmin checks
-// it, which has the model from libbtcheck-pins.so.
+// other language. Monitor writes no model, but the rules as a table for what
+// watches the program that runs the tree, and MonitorCpp both as a header;
+// Ltsmin the command lines with which LTSmin checks it, which has the model
+// from libbtcheck-pins.so.
 enum class ExportFormat : std::uint8_t {
   Dot,
   Svg,
@@ -33,6 +34,7 @@ enum class ExportFormat : std::uint8_t {
   HFiacre,
   Xml,
   Btf,
+  Monitor,
   MonitorCpp,
   Ltsmin
 };
@@ -42,6 +44,7 @@ struct ExportOptions {
   std::optional<TickSemantics> ticks;  // overrides what property files say
   ExtraAssumption extra = ExtraAssumption::None;
   std::string words = {};  // Ltsmin: the tree and the options, as typed
+  std::string space = {};  // MonitorCpp: its namespace; "": one of its own
 };
 
 // The model, or with Xml and Btf the tree itself in the other language; of a

@@ -320,6 +320,34 @@ void settle_from(const OptionWords& words, Options& options) {
   options.from.resize(sign);
 }
 
+// "robot::rules"
+void settle_namespace(const OptionWords& words, Options& options) {
+  options.space = words.value("--namespace");
+  if (options.space.empty()) return;
+  const std::string named = fmt::format("--namespace {}", options.space);
+  const auto is_name = [](std::string_view name) {
+    return !name.empty() && !is_digit(name[0]) &&
+           std::ranges::all_of(name, [](char c) {
+             return is_letter(c) || is_digit(c) || c == '_';
+           });
+  };
+  std::string_view rest = options.space;
+  bool are_names = true;
+  for (bool is_last = false; !is_last;) {
+    const std::size_t colons = std::min(rest.find("::"), rest.size());
+    are_names &= is_name(rest.substr(0, colons));
+    is_last = colons == rest.size();
+    if (!is_last) rest.remove_prefix(colons + 2);
+  }
+  if (!are_names) {
+    refuse(fmt::format("{}: that is no name of a namespace", named),
+           "write names of letters, digits and _, with :: between them");
+  }
+  if (options.format != ExportFormat::MonitorCpp) {
+    refuse(fmt::format("{} needs --to monitor-cpp", named), "");
+  }
+}
+
 // Of several files one has topics; of a file whose name does not say what it
 // is, its first bytes do.
 void settle_topic(const OptionWords& words, Options& options) {
@@ -589,6 +617,7 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_formatting(words, options);
   settle_from(words, options);
   settle_topic(words, options);
+  settle_namespace(words, options);
   settle_against(words, options);
   settle_batch(words, options);
   settle_watch(words, options);

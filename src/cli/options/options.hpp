@@ -157,6 +157,7 @@ struct Options {
   std::string trace_dir;
   std::string scratch_dir;  // --on-disk; "": nothing goes to disk
   ExportFormat format = ExportFormat::Dot;
+  std::string space;                  // export: --namespace; "": one of its own
   std::optional<std::uint16_t> view;  // --view: the port; 0: any
   TraceOptions trace;
   SimulationPlan simulation;

@@ -510,15 +510,23 @@ constexpr OptionRow kOptions[] = {
     {.name = "--to",
      .value = "FORMAT",
      .choices = "dot svg mermaid automata promela smv fiacre hfiacre xml btf "
-                "monitor-cpp ltsmin",
+                "monitor monitor-cpp ltsmin",
      .help = "the tree as a drawing (dot, svg, mermaid), its automata in "
              "Graphviz's language, a model with the rules of --prop, the "
-             "tree in the other language, the rules as monitors in C++, or "
-             "the command lines of LTSmin",
+             "tree in the other language, the rules as a table for "
+             "btcheck::observer or as a header in C++, or the command lines "
+             "of LTSmin",
      .commands = {Export},
      .is_required = true,
      .first = {Export},
      .example = "btcheck export TREE --to svg"},
+    {.name = "--namespace",
+     .value = "NAME",
+     .fallback = "btcheck_monitor",
+     .help = "the C++ namespace of --to monitor-cpp",
+     .commands = {Export},
+     .example = "btcheck export TREE --prop RULES.ltl --to monitor-cpp "
+                "--namespace robot::rules"},
     {.name = "--to",
      .value = "FORMAT",
      .choices = "text html itf svg strip dot mermaid btlog chrome chrome-stack "

@@ -439,6 +439,23 @@ constexpr std::array kUndock = {PortRow{"dock_type", kIn, String},
                                 PortRow{"error_code_id", kOut},
                                 PortRow{"error_msg", kOut, String}};
 
+// btcheck/observer.hpp: the verdict of a rule while the tree runs, which stays
+// once it is there. A program may have a type of its own of that name: without
+// the port it is no such node.
+constexpr std::array kVerdictPorts = {PortRow{"rule", kIn, String, Mandatory},
+                                      PortRow{"is", kIn, String}};
+void read_verdict(PortReader& ports, Node& node) {
+  if (ports.text("is") == "open") node.contract.memory = LeafMemory::None;
+}
+constexpr std::array kObserver = {
+    NodeTypeRow{"Verdict",
+                BtcppKind::Condition,
+                NodeType::Condition,
+                kVerdictPorts,
+                0,
+                {true, true, false, LeafMemory::SuccessStays},
+                read_verdict}};
+
 constexpr std::array kNav2 = {
     control("RecoveryNode", NodeType::Recovery, kRecovery, read_recovery),
     control("PipelineSequence", NodeType::PipelineSequence),
@@ -668,7 +685,8 @@ std::span<const NodeTypeRow> nav2_types() { return kNav2; }
 const NodeTypeRow* known_type(BtcppRelease release, std::string_view id) {
   const NodeTypeRow* row = builtin_type(release, id);
   if (row != nullptr || release == BtcppRelease::PyTrees) return row;
-  return nav2_type(id);
+  row = nav2_type(id);
+  return row != nullptr ? row : row_of(kObserver, id);
 }
 
 BtcppRelease dialect_of(Profile profile) {
@@ -724,6 +742,10 @@ const NodeTypeRow* engine_row(BtcppRelease release, const BtcppNode& node) {
       known_type(is_of_py_trees ? release : BtcppRelease::V4, node.id);
   if (row == nullptr && !is_of_py_trees) row = row_of(kOnlyVersion3, node.id);
   if (row == nullptr) return nullptr;
+  const bool is_verdict = row == kObserver.data();
+  if (is_verdict && find_attribute(node.ports, "rule") == nullptr) {
+    return nullptr;
+  }
   // A model may make an Action or a Condition of a leaf of Nav2. A condition
   // that may run is an Action to all but its author.
   const bool is_plain =

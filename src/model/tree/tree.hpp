@@ -370,6 +370,13 @@ enum class ScriptTime : std::uint8_t {
 };
 inline constexpr std::size_t kScriptTimes = 8;
 
+// Where a program finds an entry: on the blackboard that this node has, by its
+// key; and the name that rules have for it.
+struct EntryHome {
+  NodeId node{};
+  std::string name;
+};
+
 // A node's access to a blackboard entry. A port that may write as well as read
 // does both; one of an unknown direction, too.
 struct EntryUse {
@@ -484,8 +491,9 @@ struct BehaviorTree {
   std::vector<NodeId> roots;  // BehaviorTree nodes, in the order they run
   // Of XML trees.
   std::vector<OpenEntry> open_entries;
-  std::vector<std::string> entries;  // their names, modelled or not
-  std::vector<EntryUse> entry_uses;  // by node
+  std::vector<std::string> entries;    // their names, modelled or not
+  std::vector<EntryHome> entry_homes;  // of each of these
+  std::vector<EntryUse> entry_uses;    // by node
   std::shared_ptr<const btcpp::EntryPrograms> programs;
 
   const Node& node(NodeId id) const { return nodes[index(id)]; }

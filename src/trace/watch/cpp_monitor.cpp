@@ -1,77 +1,124 @@
 // SPDX-License-Identifier: MIT
-//
-// The header has two parts: tables, made of the monitors and of the conditions
-// that they read, and a runtime that is the same for all rules (cpp_runtime).
-// The runtime tells a change of status as LogPlayer does, and looks at states
-// as RecordedWatch does; tests hold it against both.
 #include "trace/watch/cpp_monitor.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <cassert>
-#include <cstdint>
 #include <filesystem>
-#include <utility>
-#include <vector>
+#include <string>
 
-#include "trace/logs/btcpp_tree.hpp"
+#include "btcheck/monitor.hpp"
 #include "trace/run/shown_text.hpp"
-#include "trace/watch/cpp_runtime.hpp"
-#include "trace/watch/recorded_watch.hpp"
 
 namespace btcheck {
 namespace {
 
-std::string_view sign_of(Operation operation) {
-  switch (operation) {
-    case Operation::Add:
-      return "+";
-    case Operation::Subtract:
-    case Operation::Negate:
-      return "-";
-    case Operation::Multiply:
-      return "*";
-    case Operation::Divide:
-      return "/";
-    case Operation::Modulo:
-      return "%";
-    case Operation::Equal:
-      return "==";
-    case Operation::NotEqual:
-      return "!=";
-    case Operation::Less:
-      return "<";
-    case Operation::LessEqual:
-      return "<=";
-    case Operation::Greater:
-      return ">";
-    case Operation::GreaterEqual:
-      return ">=";
-    case Operation::And:
-      return "&&";
-    case Operation::Or:
-      return "||";
-    case Operation::Not:
-      return "!";
-    case Operation::Constant:
-    case Operation::Variable:
-    case Operation::Status:
-      break;
-  }
-  return "";
+constexpr std::string_view kAbout = R"text(//
+//   {0}::Monitor monitor;
+//   monitor.on_verdict = [](std::size_t rule, {0}::Verdict verdict) {{...}};
+//   monitor.require_tree(nodes);          // once: is it the tree of the rules?
+//   monitor.begin_tick();                 // before each tick of the tree
+//   monitor.change(node, before, after);  // each change of a node's status
+//   monitor.end_tick();                   // after it
+//
+// Nodes are numbered as the tree has them in pre-order, the tree itself is 0.
+)text";
+
+constexpr std::string_view kMonitor = R"text(
+using core::RunningNode;
+using core::Status;
+using core::Verdict;
+using core::WrongTree;
+
+inline const core::Table& table() {
+  static const core::Table kTable = core::Table::read(kText);
+  return kTable;
 }
 
-// A text as C++ has it, whatever its characters are.
-std::string literal(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    const bool is_plain = c >= ' ' && c <= '~' && c != '"' && c != '\\';
-    result += is_plain ? std::string(1, c)
-                       : fmt::format("\\{:03o}", static_cast<unsigned char>(c));
+class Monitor : public core::Monitor {
+ public:
+  Monitor() : core::Monitor(table()) {}
+
+  // The nodes of the tree that runs, in pre-order: the first is number 1.
+  // Throws WrongTree at the first that the tree of the rules does not have.
+  static void require_tree(const std::vector<RunningNode>& nodes) {
+    table().require(nodes);
   }
-  return result + '"';
+  static std::size_t rule_count() { return table().automata.size(); }
+  static std::size_t node_count() { return table().nodes.size(); }
+  static const char* name(std::size_t rule) {
+    return table().automata[rule].name.c_str();
+  }
+  static const char* text(std::size_t rule) {
+    return table().automata[rule].text.c_str();
+  }
+  static const char* node_name(std::size_t node) {
+    return table().nodes[node].name.c_str();
+  }
+};
+
+// For BehaviorTree.CPP 4 and 3.8: #include its headers first, and define
+// BTCHECK_MONITOR_BTCPP. BtcppLogger logger(tree, monitor);
+// logger.begin_tick(); tree.tickExactlyOnce(); logger.end_tick();
+#ifdef BTCHECK_MONITOR_BTCPP
+class BtcppLogger : public BT::StatusChangeLogger {
+ public:
+  // Throws WrongTree. The monitor must outlive it.
+  BtcppLogger(const BT::Tree& tree, Monitor& monitor)
+      : BT::StatusChangeLogger(tree.rootNode()), monitor_(monitor) {
+    std::vector<RunningNode> nodes;
+    std::map<const BT::TreeNode*, std::size_t> parents;
+    BT::applyRecursiveVisitor(
+        static_cast<const BT::TreeNode*>(tree.rootNode()),
+        [&](const BT::TreeNode* node) {
+          nodes.push_back(
+              {parents[node], node->name(), node->registrationName()});
+          const std::size_t number = nodes.size();
+          numbers_[node] = number;
+          if (auto* control = dynamic_cast<const BT::ControlNode*>(node)) {
+            for (const auto* child : control->children()) {
+              parents[child] = number;
+            }
+          }
+          if (auto* above = dynamic_cast<const BT::DecoratorNode*>(node)) {
+            parents[above->child()] = number;
+          }
+        });
+    Monitor::require_tree(nodes);
+  }
+  // A tick that was begun is over, unless it has thrown.
+  ~BtcppLogger() override {
+    if (std::uncaught_exceptions() == thrown_) monitor_.end_tick();
+  }
+
+  void begin_tick(std::uint64_t units = 1) { monitor_.begin_tick(units); }
+  void end_tick() { monitor_.end_tick(); }
+
+  void callback(BT::Duration, const BT::TreeNode& node, BT::NodeStatus before,
+                BT::NodeStatus after) override {
+    const auto number = numbers_.find(&node);
+    if (number == numbers_.end()) return;
+    monitor_.change(number->second, static_cast<Status>(before),
+                    static_cast<Status>(after));
+  }
+  void flush() override {}
+
+ private:
+  Monitor& monitor_;
+  std::map<const BT::TreeNode*, std::size_t> numbers_;
+  int thrown_ = std::uncaught_exceptions();
+};
+#endif
+)text";
+
+// A line as C++ has it, whatever its characters are.
+std::string literal(std::string_view line) {
+  std::string result = "    \"";
+  for (const char c : line) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\\n\"\n";
 }
 
 // "of_demo_for_drone3": the rules' file and the tree's, as a namespace.
@@ -86,245 +133,50 @@ std::string space_name(std::string_view rules, std::string_view tree) {
   return name;
 }
 
-// FNV-1a, of 64 bits: what tells one header from another.
-std::string fingerprint(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : text) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3;
-  }
-  return fmt::format("{:016x}", hash);
+// What stands between two lines.
+std::string_view between(std::string_view text, std::string_view first,
+                         std::string_view last) {
+  const std::size_t begin = text.find(first) + first.size();
+  return text.substr(begin, text.find(last, begin) - begin);
 }
-
-class Writer {
- public:
-  Writer(const BehaviorTree& tree, const RecordedRun& nodes,
-         const RecordedWatch& watch)
-      : tree_(tree), nodes_(nodes), watch_(watch) {}
-
-  std::string write() {
-    // What conditions read is known once they are written.
-    std::string conditions;
-    for (const RuleMonitor& rule : watch_.monitors()) {
-      first_condition_.push_back(conditions_);
-      for (const StatePredicate& each : rule.propositions) {
-        conditions += condition(each.expression);
-      }
-    }
-    first_condition_.push_back(conditions_);
-    std::string past;
-    for (const RecordedWatch::Past& each : watch_.past()) {
-      const std::size_t held = conditions_;
-      conditions += condition(each.held);
-      const std::size_t began = conditions_;
-      conditions += condition(each.began);
-      past += fmt::format(
-          "    {{{}, {}, {}, {}}},\n",
-          static_cast<int>(each.kind) - static_cast<int>(AtomKind::Once),
-          slot_of(each.bit), held, began);
-    }
-    std::string tables = nodes() + conditions + condition_table() + slots();
-    tables += fmt::format(
-        "inline constexpr std::size_t kPastCount = {};\n"
-        "inline constexpr Past kPast[kPastCount + 1] = {{\n{}    {{}}}};\n",
-        watch_.past().size(), past);
-    return header(tables + monitors());
-  }
-
- private:
-  // Several in one program must not be taken for one another: each has a
-  // namespace that names its files and, within, one of its contents.
-  std::string header(const std::string& tables) const {
-    const CppRuntime runtime = cpp_runtime();
-    const std::string code =
-        std::string(runtime.types) + tables + std::string(runtime.body);
-    const std::string mark = fingerprint(code);
-    return fmt::format(
-        "// Monitors of the rules of {}, for the tree {}.\n"
-        "// Generated by btcheck; docs/monitors.md tells how to use it.\n"
-        "{}#ifndef BTCHECK_MONITOR_{}\n#define BTCHECK_MONITOR_{}\n{}"
-        "inline namespace {} {{\ninline namespace m{} {{\n{}\n"
-        "}}  // namespace m{}\n}}  // namespace {}\n"
-        "}}  // namespace btcheck_monitor\n#endif\n",
-        one_line(watch_.rules_file()), one_line(nodes_.tree), runtime.about,
-        mark, mark, runtime.includes, space(), mark, code, mark, space());
-  }
-
-  std::string space() const {
-    return space_name(watch_.rules_file(), nodes_.tree);
-  }
-
-  // The place of a network's variable among those that are kept up to date.
-  std::size_t slot_of(VariableId variable) {
-    const auto known = std::ranges::find(slots_, variable);
-    if (known != slots_.end()) {
-      return static_cast<std::size_t>(known - slots_.begin());
-    }
-    slots_.push_back(variable);
-    return slots_.size() - 1;
-  }
-
-  // A function for an expression, a line for each of its terms: however deep,
-  // no compiler has to nest.
-  std::string condition(const Expression& expression) {
-    std::string text = fmt::format(
-        "inline bool condition_{}([[maybe_unused]] const int* v) {{\n",
-        conditions_);
-    std::vector<std::string> stack;
-    std::vector<std::size_t> reads;
-    std::size_t lines = 0;
-    for (const Term& term : expression.terms()) {
-      if (term.operation == Operation::Constant) {
-        stack.push_back(std::to_string(term.operand));
-        continue;
-      }
-      if (term.operation == Operation::Variable) {
-        const std::size_t slot =
-            slot_of(VariableId{static_cast<std::uint32_t>(term.operand)});
-        if (std::ranges::find(reads, slot) == reads.end()) {
-          reads.push_back(slot);
-        }
-        stack.push_back(fmt::format("v[{}]", slot));
-        continue;
-      }
-      const std::string right = std::move(stack.back());
-      stack.pop_back();
-      std::string left;
-      if (arity(term.operation) == 2) {
-        left = std::move(stack.back()) + " ";
-        stack.pop_back();
-      }
-      text += fmt::format("  const int t{} = {}{} {};\n", lines, left,
-                          sign_of(term.operation), right);
-      stack.push_back(fmt::format("t{}", lines++));
-    }
-    text += fmt::format("  return {} != 0;\n}}\n",
-                        stack.empty() ? "1" : stack.back());
-    reads_.push_back(std::move(reads));
-    ++conditions_;
-    return text;
-  }
-
-  std::string condition_table() const {
-    std::string functions;
-    std::string begins;
-    std::string all;
-    std::size_t count = 0;
-    for (std::size_t c = 0; c < conditions_; ++c) {
-      functions += fmt::format("condition_{}, ", c);
-      begins += fmt::format("{}, ", count);
-      for (const std::size_t slot : reads_[c]) all += fmt::format("{}, ", slot);
-      count += reads_[c].size();
-    }
-    return fmt::format(
-        "inline constexpr Condition kConditions[] = {{{}nullptr}};\n"
-        "inline constexpr std::size_t kReadsBegin[] = {{{}{}}};\n"
-        "inline constexpr std::size_t kReads[] = {{{}0}};\n",
-        functions, begins, count, all);
-  }
-
-  // Nodes of XML trees are registered under the names that the tree has; who
-  // builds a .btf tree in BehaviorTree.CPP calls its leaves as it likes.
-  std::string nodes() const {
-    const LoggedTree engine = btcpp_tree(nodes_);
-    std::vector<std::string> rows{fmt::format(
-        "    {{{}, \"\", \"\", 0, false}},\n", literal(nodes_.nodes[0].name))};
-    for (const LoggedNode& logged : engine.nodes) {
-      const NodeId id{*logged.recorded};
-      assert(index(id) == rows.size());
-      const Node& node = tree_.node(id);
-      const bool is_leaf = node.children.empty();
-      const bool is_tree = logged.kind == BtcppKind::SubTree;
-      const bool is_xml = is_engine(tree_.profile);
-      const std::string& called =
-          is_xml || (is_leaf && !node.id.empty()) ? node.id : logged.id;
-      rows.push_back(fmt::format(
-          "    {{{}, {}, {}, {}, {}}},\n", literal(node.name), literal(called),
-          literal(is_tree              ? "SubTree"
-                  : is_leaf && !is_xml ? ""
-                                       : called),
-          nodes_.nodes[index(id)].parent.value_or(0), is_leaf));
-    }
-    return fmt::format(
-        "inline constexpr const char* kTree = {};\n"
-        "inline constexpr std::size_t kNodeCount = {};\n"
-        "inline constexpr Node kNodes[kNodeCount] = {{\n{}}};\n",
-        literal(nodes_.tree), rows.size(), fmt::join(rows, ""));
-  }
-
-  // Which variable of which node.
-  std::string slots() const {
-    std::string rows;
-    for (const VariableId slot : slots_) {
-      const auto [kind, node] = watch_.meaning(slot);
-      rows += fmt::format("    {{Slot::{}, {}}},\n", kind, node);
-    }
-    return fmt::format(
-        "inline constexpr std::size_t kSlotCount = {};\n"
-        "inline constexpr Slot kSlots[kSlotCount + 1] = {{\n{}    {{}}}};\n",
-        slots_.size(), rows);
-  }
-
-  std::string monitors() const {
-    std::string rows;
-    std::string tables;
-    std::size_t most_states = 1;
-    for (std::size_t i = 0; i < watch_.monitors().size(); ++i) {
-      const RuleMonitor& rule = watch_.monitors()[i];
-      const Monitor& monitor = rule.monitor;
-      most_states = std::max(most_states, monitor.next.size());
-      std::vector<std::uint32_t> next;
-      for (const auto& row : monitor.next) {
-        next.insert(next.end(), row.begin(), row.end());
-      }
-      std::vector<int> outlook;
-      for (const Outlook each : monitor.outlook) {
-        outlook.push_back(static_cast<int>(each));
-      }
-      std::vector<int> bits;  // the condition of each bit of a letter
-      for (const PropositionSet read : monitor.reads) {
-        bits.push_back(read == rule.elapsed ? -1 : std::countr_zero(read));
-      }
-      tables += fmt::format(
-          "inline constexpr std::uint32_t kNext{0}[] = {{{1}}};\n"
-          "inline constexpr std::uint8_t kOutlook{0}[] = {{{2}}};\n"
-          "inline constexpr int kBits{0}[] = {{{3}{4}0}};\n",
-          i, fmt::join(next, ", "), fmt::join(outlook, ", "),
-          fmt::join(bits, ", "), bits.empty() ? "" : ", ");
-      const Property& property = *rule.rule->property;
-      rows += fmt::format(
-          "    {{{}, {}, kNext{}, kOutlook{}, kBits{}, {}, {}}},\n",
-          literal(one_line(property.name)), literal(one_line(property.text)), i,
-          i, i, bits.size(), first_condition_[i]);
-    }
-    return tables +
-           fmt::format(
-               "inline constexpr std::size_t kRuleCount = {};\n"
-               "inline constexpr std::size_t kMostStates = {};\n"
-               "inline constexpr Rule kRules[kRuleCount + 1] = {{\n{}    "
-               "{{}}}};\n",
-               watch_.monitors().size(), most_states, rows);
-  }
-
-  const BehaviorTree& tree_;
-  const RecordedRun& nodes_;
-  const RecordedWatch& watch_;
-  std::vector<VariableId> slots_;
-  std::size_t conditions_ = 0;
-  std::vector<std::vector<std::size_t>> reads_;  // by condition
-  std::vector<std::size_t> first_condition_;     // by rule
-};
 
 }  // namespace
 
-Result<std::string> cpp_monitor(const BehaviorTree& tree,
-                                const RecordedRun& nodes,
-                                const PropertyFile& rules,
-                                const SourceText& source) {
-  auto watch = RecordedWatch::make(nodes, Recording::Log, rules, source);
-  Result<std::string> result{std::nullopt, std::move(watch.diagnostics)};
-  if (watch.value) result.value = Writer(tree, nodes, **watch.value).write();
-  return result;
+// Several in one program must not be taken for one another: each has a
+// namespace that names its files and, within, one of its contents.
+std::string cpp_monitor(std::string_view table, std::string_view space) {
+  const monitor::Table read = monitor::Table::read(table);
+  const std::string mark = fmt::format("m{:016x}", monitor::fingerprint(table));
+  const std::string outer =
+      space.empty() ? "btcheck_monitor" : std::string(space);
+  const std::string named =
+      space.empty() ? space_name(read.rules, read.tree) : mark + "_rules";
+  std::string text = fmt::format(
+      "// Monitors of the rules of {}, for the tree {}.\n"
+      "// Generated by btcheck; docs/monitors.md tells how to use it.\n",
+      read.rules, read.tree);
+  text += fmt::format(kAbout, outer);
+  text += fmt::format(
+      "#ifndef BTCHECK_MONITOR_{0}\n#define BTCHECK_MONITOR_{0}\n", mark);
+  text += between(kMonitorCore, "begins here.\n", "\nnamespace btcheck {");
+  text += fmt::format(
+      "#include <exception>\n#include <map>\n\nnamespace {} {{\n"
+      "inline namespace {} {{\ninline namespace {} {{\nnamespace core {{\n",
+      outer, named, mark);
+  text +=
+      between(kMonitorCore, "namespace monitor {\n", "}  // namespace monitor");
+  text += "}  // namespace core\n\ninline constexpr char kText[] =\n";
+  while (!table.empty()) {
+    const std::size_t end = std::min(table.find('\n'), table.size() - 1);
+    text += literal(table.substr(0, end));
+    table.remove_prefix(end + 1);
+  }
+  text.insert(text.size() - 1, ";");
+  text += kMonitor;
+  return text + fmt::format(
+                    "}}  // namespace {}\n}}  // namespace {}\n"
+                    "}}  // namespace {}\n#endif\n",
+                    mark, named, outer);
 }
 
 }  // namespace btcheck

@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// Monitors as C++, for the program that runs the tree.
+// A table of rules as C++, for who wants one header and no file beside it.
 #pragma once
 
 #include <string>
-
-#include "ltl/rules/property.hpp"
-#include "model/tree/tree.hpp"
-#include "text/diagnostic.hpp"
-#include "trace/run/recorded_run.hpp"
+#include <string_view>
 
 namespace btcheck {
 
-// One header in C++17 without dependencies. It is told of changes of status, as
-// loggers of BehaviorTree.CPP are, and says of each rule what `btcheck trace
-// LOG --prop RULES` would say of the log up to there. The rules are refused as
-// for a log, and so is, when it runs, another tree. `nodes` are the tree's, as
-// recorded_tree has them.
-Result<std::string> cpp_monitor(const BehaviorTree& tree,
-                                const RecordedRun& nodes,
-                                const PropertyFile& rules,
-                                const SourceText& source);
+// What btcheck/monitor.hpp is made of.
+extern const std::string_view kMonitorCore;
+
+// One header in C++17 without dependencies: the table, and what reads it. It
+// is told of changes of status, as loggers of BehaviorTree.CPP are, and says of
+// each rule what `btcheck trace LOG --prop RULES` would say of the log up to
+// there. Another tree is refused when it runs. `space` is its namespace, ""
+// for `btcheck_monitor` and one that names the files of rules and tree.
+std::string cpp_monitor(std::string_view table, std::string_view space);
 
 }  // namespace btcheck

@@ -8,6 +8,7 @@
 #include "model/tree/node_types.hpp"
 #include "text/diagnostic.hpp"
 #include "text/numbers.hpp"
+#include "trace/watch/entry_regions.hpp"
 
 namespace btcheck {
 namespace {
@@ -107,7 +108,9 @@ void RecordedNetwork::add_variable(const RecordedRun& run, std::size_t number,
                                    const PropertyFile& rules) {
   StateVariable variable;
   variable.name = run.variables[number];
-  if (run.is_number[number]) {
+  if (run.states.empty()) {  // an entry of a program that runs
+    variable = entry_regions(rules, variable.name);
+  } else if (run.is_number[number]) {
     variable.min = -kGreatest;
     variable.max = kGreatest;
   } else {
@@ -189,6 +192,7 @@ VariableId RecordedNetwork::location(std::size_t node) const {
 int RecordedNetwork::value_of(std::size_t variable,
                               const std::string& word) const {
   const StateVariable& of = tree_.variables[variable];
+  if (!of.values.empty()) return region_of(of, word);
   if (!of.is_enumeration()) return as_number<int>(word).value_or(0);
   const auto place = std::ranges::find_if(of.states, [&](const auto& state) {
     return equal_ignoring_case(state, word);

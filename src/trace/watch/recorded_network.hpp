@@ -25,7 +25,8 @@ namespace btcheck {
 class RecordedNetwork {
  public:
   // Of the states only the values are looked at. A value that a rule names and
-  // the run never has is one of the variable's all the same.
+  // the run never has is one of the variable's all the same. The variables of a
+  // run without states are entries of a program that runs.
   RecordedNetwork(const RecordedRun& run, const PropertyFile& rules);
 
   const BehaviorTree& tree() const { return tree_; }

@@ -23,9 +23,13 @@ constexpr std::size_t kMostWays = 4096;
 // What a recording cannot say: each cause once, with all that asks for it.
 class Unshown {
  public:
+  // `entries`: the variables of a log.
   Unshown(Recording recording, const PropertyFile& rules,
-          const SourceText& source)
-      : is_log_(recording == Recording::Log), rules_(rules), source_(source) {}
+          const SourceText& source, const std::vector<std::string>& entries)
+      : is_log_(recording == Recording::Log),
+        rules_(rules),
+        source_(source),
+        entries_(entries) {}
 
   std::vector<Diagnostic> find() {
     for (const Atom& atom : rules_.atoms) look_at(atom);
@@ -49,6 +53,12 @@ class Unshown {
              "it ends, and says not why: write `root.ended`");
     }
     if (!is_log_) return;
+    if (is_entry(atom.left) && is_entry(atom.right)) {
+      refuse(atom.span,
+             "of two entries that are compared it is not known while a robot "
+             "runs: ",
+             atom.text, "compare each with a number or a word");
+    }
     bool asks_skipped =
         atom.kind == AtomKind::NodeEvent && atom.word == "skipped";
     visit_leaves(atom, [&](const Operand& side) {
@@ -80,6 +90,13 @@ class Unshown {
              "a log does not show single steps, which are asked for by ",
              rule.name, "write it without `X`");
     }
+  }
+
+  bool is_entry(const Operand& side) const {
+    return side.node.empty() &&
+           std::ranges::any_of(entries_, [&](const std::string& entry) {
+             return equal_ignoring_case(entry, side.name);
+           });
   }
 
   struct Cause {
@@ -116,10 +133,12 @@ class Unshown {
   bool is_log_;
   const PropertyFile& rules_;
   const SourceText& source_;
+  const std::vector<std::string>& entries_;
   std::vector<Cause> causes_;
 };
 
-// A log has no variables, so a name that fits nothing may well be one.
+// A log has no variables but the entries that the observer writes, so a name
+// that fits nothing may well be one.
 void explain_names(std::vector<Diagnostic>& findings) {
   for (Diagnostic& found : findings) {
     const bool is_unknown = found.code == "BT1101" || found.code == "BT1105";
@@ -148,7 +167,7 @@ Result<std::unique_ptr<RecordedWatch>> RecordedWatch::make(
     const RecordedRun& run, Recording recording, const PropertyFile& rules,
     const SourceText& source) {
   Result<std::unique_ptr<RecordedWatch>> result{
-      std::nullopt, Unshown(recording, rules, source).find()};
+      std::nullopt, Unshown(recording, rules, source, run.variables).find()};
   std::vector<Diagnostic>& findings = result.diagnostics;
   const std::string ticks = run.ticks.empty() ? "root" : run.ticks;
   if (rules.ticks && *rules.ticks != ticks) {
@@ -387,17 +406,22 @@ std::pair<std::string_view, std::size_t> RecordedWatch::meaning(
   if (known.owner) node = index(network.automaton(*known.owner).node);
   switch (known.role) {
     case VariableRole::Location:
-      return {"Location", node};
+      return {"location", node};
     case VariableRole::Status:
-      return {"LastStatus", node};
+      return {"last_status", node};
     case VariableRole::Caller:
-      return {"Called", node};
+      return {"called", node};
     case VariableRole::State:
     case VariableRole::Local:
     case VariableRole::Fault:
       break;
   }
-  return {known.name == kAnswerName ? "Answer" : "Remembered", node};
+  const auto& entries = network.state_variable;
+  const auto entry = std::ranges::find(entries, variable);
+  if (entry != entries.end()) {
+    return {"entry", static_cast<std::size_t>(entry - entries.begin())};
+  }
+  return {known.name == kAnswerName ? "answer" : "remembered", node};
 }
 
 std::vector<std::string> RecordedWatch::texts(std::size_t rule) const {

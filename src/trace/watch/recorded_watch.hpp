@@ -76,8 +76,13 @@ class RecordedWatch {
   const std::vector<RuleMonitor>& monitors() const { return monitors_; }
   const std::vector<Past>& past() const { return past_; }
   const std::string& rules_file() const { return rules_.file; }
-  // "Location", "LastStatus", "Called", "Answer" or "Remembered", and the node.
+  // "location", "last_status", "called", "answer" or "remembered", and the
+  // node; or "entry" and the variable of the run.
   std::pair<std::string_view, std::size_t> meaning(VariableId variable) const;
+  // An entry of a log, as far as the rules tell its values apart.
+  const StateVariable& entry(std::size_t variable) const {
+    return network_.tree().variables[variable];
+  }
 
   // The propositions of a rule in the present state, with their texts.
   std::vector<std::string> texts(std::size_t rule) const;

@@ -240,25 +240,33 @@ std::size_t most_values(const ScriptDetail& detail, const EntryName& entry) {
   return asked_of(detail, entry) ? std::max(most, kMostAsked) : most;
 }
 
-std::vector<StateVariable> entry_variables(
-    const BtcppExpansion& expansion, const std::vector<EntryName>& entries,
-    const std::vector<ScriptDomain>& domains,
-    const std::map<EntryName, ScriptValue>& literals) {
-  std::vector<StateVariable> variables;
+std::vector<std::string> names_of_entries(
+    const BtcppExpansion& expansion, const std::vector<EntryName>& entries) {
+  std::vector<std::string> names;
   std::map<std::string, int> uses;
   std::set<std::string> taken;
   for (const EntryName& entry : entries) ++uses[as_word(entry.name)];
-  // Ordered by subtree, so the root's names are given first.
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const EntryName& entry = entries[i];
+  for (const EntryName& entry : entries) {
     std::string name = as_word(entry.name);
     if (name.empty()) name = "_";
     if (uses[as_word(entry.name)] > 1 && entry.subtree != 0) {
       name = as_word(expansion.subtrees[entry.subtree].path) + "_" + name;
     }
+    names.push_back(unused_name(taken, name));
+  }
+  return names;
+}
+
+std::vector<StateVariable> entry_variables(
+    const BtcppExpansion& expansion, const std::vector<EntryName>& entries,
+    const std::vector<ScriptDomain>& domains,
+    const std::map<EntryName, ScriptValue>& literals) {
+  std::vector<StateVariable> variables;
+  const std::vector<std::string> names = names_of_entries(expansion, entries);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
     StateVariable variable = variable_of(domains[i]);
-    variable.name = unused_name(taken, name);
-    const auto literal = literals.find(entry);
+    variable.name = names[i];
+    const auto literal = literals.find(entries[i]);
     if (literal != literals.end()) {
       variable.initial = static_cast<int>(domains[i].index_of(literal->second));
     }

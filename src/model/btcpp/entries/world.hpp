@@ -64,6 +64,11 @@ std::string compared_with(const ScriptDetail& detail, const EntryName& entry);
 // How many of its values are kept apart.
 std::size_t most_values(const ScriptDetail& detail, const EntryName& entry);
 
+// The names that properties have for entries, which are ordered by subtree, so
+// that the root's come first.
+std::vector<std::string> names_of_entries(
+    const BtcppExpansion& expansion, const std::vector<EntryName>& entries);
+
 // A state variable for each of the entries, under a name that properties can
 // use. An entry with a literal begins with it, all others begin as unknown.
 std::vector<StateVariable> entry_variables(

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/btcpp/attributes.hpp"
+#include "model/btcpp/entries/world.hpp"
 #include "model/btcpp/expand/writers.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/script/script.hpp"
@@ -33,6 +34,7 @@ class Noting {
       for (const auto& port : at_->node->ports) note_port(port);
       note_setting();
     }
+    name_homes();
   }
 
  private:
@@ -42,9 +44,23 @@ class Noting {
   EntryUse& add(const EntryName& entry) {
     const auto number = static_cast<std::uint32_t>(tree_.entries.size());
     const auto [known, is_new] = numbers_.emplace(entry, number);
-    if (is_new) tree_.entries.push_back(entry.name);
+    if (is_new) {
+      tree_.entries.push_back(entry.name);
+      const auto& home = expansion_.subtrees[entry.subtree];
+      tree_.entry_homes.push_back({NodeId{home.first_node + 1}, ""});
+    }
     return tree_.entry_uses.emplace_back(
         EntryUse{.node = node_, .entry = known->second});
+  }
+
+  // Of numbers_, which is in the order that names want.
+  void name_homes() {
+    std::vector<EntryName> entries;
+    for (const auto& [entry, number] : numbers_) entries.push_back(entry);
+    const auto names = names_of_entries(expansion_, entries);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      tree_.entry_homes[numbers_.at(entries[i])].name = names[i];
+    }
   }
 
   void note_port(const BtcppAttribute& port) {
