@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 #
 # What is installed, and the Debian packages made of it: `btcheck`, the program
-# with its page, completions and CMake functions, which needs no other package
-# where it is linked statically, and `libbtcheck-dev`, the library with its
+# with its page, completions and CMake functions and the observer's headers, which
+# needs no other package where it is linked statically, and `libbtcheck-dev`, the library with its
 # headers.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -62,6 +62,14 @@ target_compile_features(btcheck_engine INTERFACE cxx_std_20)
 target_link_libraries(btcheck_engine INTERFACE
   btcheck_library Threads::Threads)
 
+# Rules in a program with BehaviorTree.CPP: headers, which come with the program
+# that writes their tables. btcheckConfig adds the engine.
+add_library(btcheck_observer INTERFACE)
+set_target_properties(btcheck_observer PROPERTIES EXPORT_NAME observer)
+target_include_directories(btcheck_observer INTERFACE
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_compile_features(btcheck_observer INTERFACE cxx_std_17)
+
 # The program writes its own man page and completions; for another machine, one
 # that runs here does. Where only a part was
 # built, that part is installed: OPTIONAL below leaves the rest out.
@@ -95,7 +103,11 @@ endfunction()
 set(data ${CMAKE_INSTALL_DATADIR})
 set_target_properties(btcheck PROPERTIES EXPORT_NAME program)
 
-install(TARGETS btcheck EXPORT btcheck_program COMPONENT program)
+install(TARGETS btcheck btcheck_observer EXPORT btcheck_program
+  COMPONENT program)
+install(FILES src/btcheck/observer.hpp src/btcheck/monitor.hpp
+  src/btcheck/marked_log.hpp
+  COMPONENT program DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/btcheck)
 if(TARGET btcheck_pins)
   install(TARGETS btcheck_pins LIBRARY OPTIONAL COMPONENT program
     DESTINATION ${CMAKE_INSTALL_LIBDIR})

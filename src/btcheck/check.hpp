@@ -365,6 +365,13 @@ class Simulation {
   std::shared_ptr<const Whole> whole;
 };
 
+// Rules as data, for btcheck/observer.hpp in the program that runs the tree.
+struct RuleTable {
+  Outcome outcome = Outcome::Met;  // BadInput: there is none
+  std::vector<Finding> findings;
+  std::string text;
+};
+
 struct Explanation {
   std::string code;
   std::string summary;      // a few words
@@ -395,6 +402,11 @@ Description describe(const Request& request, Sources& sources,
 // longer it is, the longer that takes.
 Simulation simulate(const Request& request, const Plan& plan, Sources& sources,
                     Monitor* monitor = nullptr);
+
+// The rules of one file, or the typed ones, as what watches a run of the tree
+// (docs/robots.md). Refused is what no run shows.
+RuleTable monitor_table(const Request& request, Sources& sources,
+                        Monitor* monitor = nullptr);
 
 // Nothing for a code that does not exist.
 std::optional<Explanation> explain(std::string_view code);

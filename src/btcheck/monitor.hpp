@@ -523,13 +523,15 @@ class Monitor {
     answered_.resize(nodes, Status::Idle);
     ticking_.reserve(nodes);
     is_ticking_.resize(nodes, false);
-    is_touched_.resize(nodes, true);
-    for (std::size_t n = 0; n < nodes; ++n) touched_.push_back(n);
+    is_touched_.resize(nodes, false);
+    is_asked_.resize(nodes, false);
+    touched_.reserve(nodes);
     values_.resize(table.slots.size(), 0);
     others_.resize(table.slots.size());
     past_.resize(table.past.size(), kNo);
     index_slots();
     index_rules();
+    for (std::size_t n = 0; n < nodes; ++n) touch(n);
     for (std::size_t r = 0; r < automata_.size(); ++r) settle(r);
     see();
   }
@@ -717,6 +719,11 @@ class Monitor {
     std::vector<std::size_t> reads;  // slots, each once
     Truth truth = kNo;
     bool is_stale = true;
+    bool is_of_past = false;
+    // `slot == value`, as most are.
+    bool is_equation = false;
+    std::size_t slot = 0;
+    int value = 0;
   };
 
   // A rule on its way: one state, or several where something is not known.
@@ -768,6 +775,7 @@ class Monitor {
 
   void index_slots() {
     slots_of_node_.resize(table_.nodes.size());
+    is_asked_[0] = true;  // where it answers a tick ends
     slots_of_entry_.resize(table_.entries.size());
     for (std::size_t s = 0; s < table_.slots.size(); ++s) {
       const Table::Slot& slot = table_.slots[s];
@@ -778,6 +786,7 @@ class Monitor {
         continue;
       }
       slots_of_node_[slot.of].push_back(s);
+      is_asked_[slot.of] = true;
       if (slot.kind == Table::SlotKind::Answer) answer_slots_.push_back(s);
     }
   }
@@ -797,6 +806,18 @@ class Monitor {
         reads.push_back(slot);
         conditions_of_slot_[slot].push_back(c);
       }
+      const auto& terms = table_.conditions[c];
+      if (terms.size() == 3 && terms[0].code == Table::Code::Slot &&
+          terms[1].code == Table::Code::Constant &&
+          terms[2].code == Table::Code::Equal) {
+        conditions_[c].is_equation = true;
+        conditions_[c].slot = static_cast<std::size_t>(terms[0].operand);
+        conditions_[c].value = terms[1].operand;
+      }
+    }
+    for (const Table::Past& past : table_.past) {
+      conditions_[past.held].is_of_past = true;
+      conditions_[past.began].is_of_past = true;
     }
     automata_.resize(table_.automata.size());
     verdicts_ =
@@ -852,8 +873,9 @@ class Monitor {
     }
   }
 
+  // Nothing is asked of most nodes.
   void touch(std::size_t node) {
-    if (is_touched_[node]) return;
+    if (is_touched_[node] || !is_asked_[node]) return;
     is_touched_[node] = true;
     touched_.push_back(node);
   }
@@ -1013,6 +1035,7 @@ class Monitor {
   void mark_slot(std::size_t slot) {
     for (const std::size_t c : conditions_of_slot_[slot]) {
       conditions_[c].is_stale = true;
+      is_past_new_ |= conditions_[c].is_of_past;
       for (const std::size_t rule : rules_of_condition_[c]) mark(rule);
     }
   }
@@ -1165,6 +1188,10 @@ class Monitor {
   }
 
   Truth find_truth(std::size_t number) {
+    const Condition& condition = conditions_[number];
+    if (condition.is_equation && others_[condition.slot].count == 0) {
+      return values_[condition.slot] == condition.value ? kYes : kNo;
+    }
     constexpr std::size_t kMostWays = 4096;
     const std::vector<Table::Term>& terms = table_.conditions[number];
     const std::vector<std::size_t>& reads = conditions_[number].reads;
@@ -1197,6 +1224,7 @@ class Monitor {
   }
 
   void note_past(bool is_tick_end) {
+    is_past_new_ = false;
     for (std::size_t p = 0; p < table_.past.size(); ++p) {
       const Table::Past& past = table_.past[p];
       Truth& now = past_[p];
@@ -1213,9 +1241,11 @@ class Monitor {
         others_[past.slot] = others;
         mark_slot(past.slot);
       }
+      // What holds where this tick ends is told from the next state on.
       const bool is_told = past.kind == Table::PastKind::Previously;
       if (is_told && is_tick_end) now = truth(past.held);
     }
+    is_past_new_ |= is_tick_end;
   }
 
   static Truth either(Truth one, Truth other) {
@@ -1231,6 +1261,9 @@ class Monitor {
 
   // The present state.
   void see() {
+    const bool is_new = !touched_.empty() || !marked_.empty() || has_ended_ ||
+                        has_passed_;
+    if (!is_new) return;
     read_slots();
     has_ended_ = answer_in(location_[0]) != 0 && location_[0] != before_[0];
     for (const std::size_t node : touched_) {
@@ -1238,7 +1271,7 @@ class Monitor {
       is_touched_[node] = false;
     }
     touched_.clear();
-    if (!past_.empty()) note_past(has_ended_);
+    if (is_past_new_ || (has_ended_ && !past_.empty())) note_past(has_ended_);
     if (has_passed_) {
       for (const std::size_t rule : timed_) mark(rule);
     }
@@ -1370,6 +1403,7 @@ class Monitor {
   std::vector<Status> answered_;      // and has not become so yet
   std::vector<std::size_t> ticking_;  // in their tick, as far as is known
   std::vector<char> is_ticking_;
+  std::vector<char> is_asked_;  // some slot is of it
   std::vector<char> is_touched_;
   std::vector<std::size_t> touched_;
 
@@ -1397,6 +1431,7 @@ class Monitor {
   bool is_in_tick_ = false;
   bool has_ended_ = false;
   bool has_passed_ = false;
+  bool is_past_new_ = true;  // something that is remembered may be another
 };
 
 }  // namespace monitor
