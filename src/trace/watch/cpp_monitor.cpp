@@ -30,30 +30,30 @@ using core::Status;
 using core::Verdict;
 using core::WrongTree;
 
-inline const core::Table& table() {
+inline const core::Table& table_of_rules() {
   static const core::Table kTable = core::Table::read(kText);
   return kTable;
 }
 
 class Monitor : public core::Monitor {
  public:
-  Monitor() : core::Monitor(table()) {}
+  Monitor() : core::Monitor(table_of_rules()) {}
 
   // The nodes of the tree that runs, in pre-order: the first is number 1.
   // Throws WrongTree at the first that the tree of the rules does not have.
   static void require_tree(const std::vector<RunningNode>& nodes) {
-    table().require(nodes);
+    table_of_rules().require(nodes);
   }
-  static std::size_t rule_count() { return table().automata.size(); }
-  static std::size_t node_count() { return table().nodes.size(); }
+  static std::size_t rule_count() { return table_of_rules().automata.size(); }
+  static std::size_t node_count() { return table_of_rules().nodes.size(); }
   static const char* name(std::size_t rule) {
-    return table().automata[rule].name.c_str();
+    return table_of_rules().automata[rule].name.c_str();
   }
   static const char* text(std::size_t rule) {
-    return table().automata[rule].text.c_str();
+    return table_of_rules().automata[rule].text.c_str();
   }
   static const char* node_name(std::size_t node) {
-    return table().nodes[node].name.c_str();
+    return table_of_rules().nodes[node].name.c_str();
   }
 };
 
