@@ -67,7 +67,8 @@ int RecordedNetwork::location_number(std::string_view name) {
 }
 
 RecordedNetwork::RecordedNetwork(const RecordedRun& run,
-                                 const PropertyFile& rules) {
+                                 const PropertyFile& rules)
+    : regions_(rules), has_entries_(run.has_entries) {
   const bool is_of_engine =
       !run.states.empty() && std::ranges::any_of(run.states.front().statuses,
                                                  [](const std::string& status) {
@@ -78,8 +79,10 @@ RecordedNetwork::RecordedNetwork(const RecordedRun& run,
   tree_.profile = is_log || is_of_engine ? Profile::Btcpp4 : Profile::Paper;
   network_.profile = tree_.profile;
   network_.ticks = tick_semantics(run.ticks).value_or(TickSemantics::Root);
+  const auto names = has_entries_ ? entry_names(run.variables) : run.variables;
   for (std::size_t v = 0; v < run.variables.size(); ++v) {
-    add_variable(run, v, rules);
+    add_variable(has_entries_ ? regions_.variable(names[v])
+                              : variable_of(run, v, rules));
   }
   for (std::uint32_t n = 0; n < run.nodes.size(); ++n) {
     add_node(run.nodes[n], n);
@@ -103,8 +106,9 @@ VariableId RecordedNetwork::add(VariableRole role, std::string name,
   return VariableId{static_cast<std::uint32_t>(network_.variables.size() - 1)};
 }
 
-void RecordedNetwork::add_variable(const RecordedRun& run, std::size_t number,
-                                   const PropertyFile& rules) {
+StateVariable RecordedNetwork::variable_of(const RecordedRun& run,
+                                           std::size_t number,
+                                           const PropertyFile& rules) {
   StateVariable variable;
   variable.name = run.variables[number];
   if (run.is_number[number]) {
@@ -119,6 +123,10 @@ void RecordedNetwork::add_variable(const RecordedRun& run, std::size_t number,
     }
     variable.max = static_cast<int>(variable.states.size()) - 1;
   }
+  return variable;
+}
+
+void RecordedNetwork::add_variable(StateVariable variable) {
   const AutomatonId automaton{
       static_cast<std::uint32_t>(network_.automata.size())};
   const bool moves = variable.is_enumeration();
@@ -211,7 +219,9 @@ void RecordedNetwork::read(const RecordedState& state,
     }
   }
   for (std::size_t v = 0; v < tree_.variables.size(); ++v) {
-    values[index(network_.state_variable[v])] = value_of(v, state.values[v]);
+    values[index(network_.state_variable[v])] =
+        has_entries_ ? regions_.region_of(state.values[v])
+                     : value_of(v, state.values[v]);
   }
 }
 

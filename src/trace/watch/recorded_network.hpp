@@ -15,6 +15,7 @@
 #include "model/automata/network.hpp"
 #include "model/tree/tree.hpp"
 #include "trace/run/recorded_run.hpp"
+#include "trace/watch/entry_regions.hpp"
 
 namespace btcheck {
 
@@ -43,8 +44,9 @@ class RecordedNetwork {
  private:
   void add_node(const RecordedNode& node, std::uint32_t number);
   void add_automaton(std::uint32_t number);
-  void add_variable(const RecordedRun& run, std::size_t number,
-                    const PropertyFile& rules);
+  static StateVariable variable_of(const RecordedRun& run, std::size_t number,
+                                   const PropertyFile& rules);
+  void add_variable(StateVariable variable);
   VariableId add(VariableRole role, std::string name,
                  std::vector<std::string> values,
                  std::optional<AutomatonId> owner);
@@ -52,6 +54,8 @@ class RecordedNetwork {
 
   BehaviorTree tree_;
   Network network_;
+  EntryRegions regions_;
+  bool has_entries_ = false;
 };
 
 }  // namespace btcheck
