@@ -107,11 +107,11 @@ struct Table {
     bool is_leaf = false;
   };
   // A value of an entry as far as the rules tell it from others: a number from
-  // `low` to `high`, a text, any other text; or an entry that is not there or
-  // holds nothing.
+  // `low` to `high`, a text by its word, any other text; or an entry that is
+  // not there, holds nothing, or something else.
   struct Region {
-    enum Kind : std::uint8_t { Numbers, Text, AnyText, Unset, NoValue, Rest };
-    Kind kind = Rest;
+    enum Kind : std::uint8_t { Numbers, Text, AnyText, Unset, NoValue, Other };
+    Kind kind = Other;
     double low = 0;
     double high = 0;
     std::string text = {};
@@ -121,7 +121,7 @@ struct Table {
     std::string name;  // as rules have it
     std::size_t node = 0;
     std::string key;
-    std::vector<Region> regions;  // the first that fits; the last fits all
+    std::vector<Region> regions;  // the first that fits is meant
   };
   enum class SlotKind : std::uint8_t {
     Location,
@@ -367,7 +367,7 @@ class TableReader {
     entry.key = quoted();
     const std::size_t regions = number(kMost);
     constexpr const char* kKinds[] = {"numbers", "text",     "any_text",
-                                      "unset",   "no_value", "rest"};
+                                      "unset",   "no_value", "other"};
     for (std::size_t i = 0; i < regions; ++i) {
       Table::Region region;
       region.kind = static_cast<Table::Region::Kind>(choice(kKinds));
@@ -378,9 +378,7 @@ class TableReader {
       if (region.kind == Table::Region::Text) region.text = quoted();
       entry.regions.push_back(std::move(region));
     }
-    if (regions == 0 || entry.regions.back().kind != Table::Region::Rest) {
-      refuse("an entry whose last value is not the rest");
-    }
+    if (regions == 0) refuse("an entry without values");
     return entry;
   }
 
@@ -758,17 +756,41 @@ class Monitor {
         return value.is_number() && value.number() >= region.low &&
                value.number() <= region.high;
       case Table::Region::Text:
-        return value.kind == EntryValue::Text && value.text == region.text;
+        return value.kind == EntryValue::Text &&
+               has_word(value.text, region.text);
       case Table::Region::AnyText:
         return value.kind == EntryValue::Text;
       case Table::Region::Unset:
         return value.kind == EntryValue::Unset;
       case Table::Region::NoValue:
         return value.kind == EntryValue::NoValue;
-      case Table::Region::Rest:
-        return true;
+      case Table::Region::Other:
+        return value.kind == EntryValue::Other ||
+               (value.is_number() && std::isnan(value.number()));
     }
-    return true;
+    return false;
+  }
+
+  // Whether rules call that text so: `go_home` for "go home", `empty` for "",
+  // `text_3` for "3" where the number is called so. Letters count as one,
+  // capital or not.
+  static bool has_word(std::string_view text, std::string_view word) {
+    if (text.empty()) return word == "empty";
+    constexpr std::string_view kOfText = "text_";
+    const bool is_marked = word.substr(0, kOfText.size()) == kOfText &&
+                           word.size() == text.size() + kOfText.size();
+    if (is_marked) word.remove_prefix(kOfText.size());
+    const auto letter = [](char c) {
+      const bool is_capital = c >= 'A' && c <= 'Z';
+      if (is_capital) return static_cast<char>(c - 'A' + 'a');
+      const bool is_kept = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
+                           static_cast<unsigned char>(c) >= 0x80;
+      return is_kept ? c : '_';
+    };
+    return std::equal(text.begin(), text.end(), word.begin(), word.end(),
+                      [&](char of_text, char of_word) {
+                        return letter(of_text) == letter(of_word);
+                      });
   }
 
   // --- Made once ---

@@ -14,6 +14,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
+#include "cli/recordings.hpp"
 #include "model/tree/node_types.hpp"
 #include "report/text/report.hpp"
 #include "trace/conform/conform.hpp"
@@ -46,7 +47,7 @@ std::optional<Recordings> read_recordings(const Options& options,
     found.insert(found.end(), file.diagnostics.begin(), file.diagnostics.end());
     if (!file.value) continue;
     if (is_log(name, file.value->text)) {
-      auto log = read_log(name, file.value->text, options.topic, limits);
+      auto log = read_whole_log(options, name, file.value->text, limits);
       found.insert(found.end(), log.diagnostics.begin(), log.diagnostics.end());
       if (log.value) read.logs.push_back({name, std::move(*log.value)});
     } else if (read.tree.empty()) {
@@ -184,15 +185,28 @@ std::string told(const NamedLog& named, const BehaviorTree& tree,
                        counted(count, "record", "records"),
                        grouped(found.progress.states));
   }
-  const LogTransition& record = named.log.transitions[*found.refused];
-  const LogEvent event{nodes.node(record.uid), record.after};
-  std::string text = fmt::format(
-      "REFUSED    {}  (record {} of {}, after {}.{:06} s)\n"
-      "{}{} {} -> {}\n",
-      named.name, *found.refused + 1, count, record.time / 1'000'000,
-      record.time % 1'000'000, kIndent, short_name(tree, event.node),
-      kLogStatusNames[static_cast<std::size_t>(record.before)],
-      kLogStatusNames[static_cast<std::size_t>(record.after)]);
+  const LogTransition record = *found.refused < count
+                                   ? named.log.transitions[*found.refused]
+                                   : LogTransition{};
+  const LogEvent event = found.refused_answer
+                             ? *found.refused_answer
+                             : LogEvent{nodes.node(record.uid), record.after};
+  const auto status_name = [](LogStatus status) {
+    return kLogStatusNames[static_cast<std::size_t>(status)];
+  };
+  std::string text =
+      found.refused_answer
+          ? fmt::format(
+                "REFUSED    {}  (tick {}, after {}.{:06} s)\n{}{} answers {}\n",
+                named.name, found.tick, record.time / 1'000'000,
+                record.time % 1'000'000, kIndent, short_name(tree, event.node),
+                status_name(event.status))
+          : fmt::format(
+                "REFUSED    {}  (record {} of {}, after {}.{:06} s)\n"
+                "{}{} {} -> {}\n",
+                named.name, *found.refused + 1, count, record.time / 1'000'000,
+                record.time % 1'000'000, kIndent, short_name(tree, event.node),
+                status_name(record.before), status_name(record.after));
   if (!found.allowed.empty()) {
     text += fmt::format("{}the tree could do: {}\n", kIndent,
                         allowed_text(tree, found.allowed));
@@ -256,7 +270,7 @@ class Following {
     } else if (found.refused) {
       code_ = worst_of(code_, ExitCode::Missed);
     } else {
-      evidence_.add(named.log, nodes, std::int64_t{options_.tick_ms} * 1000);
+      evidence_.add(named.log, nodes, reading_of(options_));
     }
     const bool is_refused = found.refused && found.contradiction.empty();
     std::string contract;
@@ -271,7 +285,9 @@ class Following {
   std::string left_contract(const BehaviorLog& log, const LoggedNodes& nodes,
                             const Conformance& refused) const {
     std::vector<NodeId> leaves;  // that the log knows by then
-    for (std::size_t i = 0; i <= *refused.refused; ++i) {
+    const std::size_t count =
+        std::min(*refused.refused + 1, log.transitions.size());
+    for (std::size_t i = 0; i < count; ++i) {
       const NodeId node = nodes.node(log.transitions[i].uid);
       if (!lowered_.tree.node(node).children.empty()) continue;
       if (std::ranges::find(leaves, node) == leaves.end()) {

@@ -8,6 +8,7 @@
 
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
+#include "cli/recordings.hpp"
 #include "model/btcpp/tree/entry_programs.hpp"
 #include "trace/conform/start.hpp"
 #include "trace/run/itf.hpp"
@@ -60,6 +61,7 @@ std::optional<StartFrom> StartFrom::read(const Options& options,
   StartFrom start;
   start.file_ = options.from;
   start.tick_ = options.from_tick;
+  start.reading_ = reading_of(options);
   const auto file = read_file(options.from);
   show(options, file.diagnostics);
   if (!file.value) return std::nullopt;
@@ -71,7 +73,7 @@ std::optional<StartFrom> StartFrom::read(const Options& options,
     if (is_read) start.recording_ = std::move(*read.value);
   };
   if (is_log(options.from, text)) {
-    take(read_log(options.from, text, options.topic, limits));
+    take(read_whole_log(options, options.from, text, limits));
   } else {
     take(read_itf(options.from, text));
   }
@@ -98,7 +100,8 @@ std::vector<Diagnostic> StartFrom::begin(const BehaviorTree& tree,
   auto states =
       std::holds_alternative<BehaviorLog>(recording_)
           ? states_after(file_, tree, network, recorded_tree(tree, input),
-                         std::get<BehaviorLog>(recording_), tick_, limits)
+                         std::get<BehaviorLog>(recording_), reading_, tick_,
+                         limits)
           : states_after(file_, tree, network,
                          std::get<RecordedRun>(recording_), tick_);
   if (!states.value) return std::move(states.diagnostics);

@@ -39,6 +39,7 @@ class StartFrom {
  private:
   std::string file_;
   std::optional<int> tick_;
+  LogReading reading_;
   std::variant<BehaviorLog, RecordedRun> recording_;
   std::size_t count_ = 0;
 };

@@ -13,6 +13,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/process_limits.hpp"
+#include "cli/recordings.hpp"
 #include "model/tree_file.hpp"
 #include "report/text/report.hpp"
 #include "text/utf8.hpp"
@@ -91,8 +92,7 @@ ExitCode run_monitor(const Options& options) {
                                "a robot logs one tree"));
   }
   const RecordedRun run = recorded_tree(*tree.value, inputs->tree);
-  auto oracle = Oracle::make(*tree.value, run, rules,
-                             std::int64_t{options.tick_ms} * 1000);
+  auto oracle = Oracle::make(*tree.value, run, rules, reading_of(options));
   found.insert(found.end(), oracle.diagnostics.begin(),
                oracle.diagnostics.end());
   show(options, found);

@@ -4,6 +4,7 @@
 #include "cli/recordings.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -30,11 +31,6 @@ void add(std::vector<Diagnostic>& to, std::vector<Diagnostic> found) {
   to.insert(to.end(), std::make_move_iterator(found.begin()),
             std::make_move_iterator(found.end()));
 }
-
-struct LogInTree {
-  RecordedRun names;
-  BehaviorLog log;
-};
 
 // The names of a log's nodes: those of the tree that the rules name, where they
 // name one, since a log has no lines. Nothing, with the reason, where the tree
@@ -66,25 +62,42 @@ Result<LogInTree> names_for(const Options& options, const InputFile& rules,
   return result;
 }
 
+Diagnostic without_tree(const std::string& file) {
+  return file_error("BT1807", file,
+                    "a recording of ROS 2 does not bring its tree along",
+                    "name the tree in the rules: tree \"nav.xml\"");
+}
+
+// The files of --prop, and what -e says; nothing, and shows why, where one
+// cannot be read.
+std::optional<std::vector<InputFile>> asked_rules(const Options& options) {
+  std::vector<InputFile> asked;
+  for (const std::string& name : options.properties) {
+    auto rules = read_file(name);
+    show(options, rules.diagnostics);
+    if (!rules.value) return std::nullopt;
+    asked.push_back(std::move(*rules.value));
+  }
+  if (!options.rules.empty()) asked.push_back(typed_rules(options.rules));
+  return asked;
+}
+
 Result<WatchReport> watched_log(const Options& options, const InputFile& file,
                                 const InputFile& rules,
                                 const PropertyFile& read,
                                 const BehaviorLog& log) {
-  const std::int64_t tick_time = std::int64_t{options.tick_ms} * 1000;
+  const LogReading reading = reading_of(options);
   const SourceText source(rules.name, rules.text);
   if (read.tree.empty() && !log.has_places()) {
-    return {std::nullopt,
-            {file_error("BT1807", file.name,
-                        "a recording of ROS 2 does not bring its tree along",
-                        "name the tree in the rules: tree \"nav.xml\"")}};
+    return {std::nullopt, {without_tree(file.name)}};
   }
   if (read.tree.empty()) {
-    return watch_log(file.name, log, tick_time, read, source);
+    return watch_log(file.name, log, reading, read, source);
   }
   auto names = names_for(options, rules, file.name, log);
   if (!names.value) return {std::nullopt, std::move(names.diagnostics)};
   auto report = watch_log_as(names.value->names, file.name, names.value->log,
-                             tick_time, read, source);
+                             reading, read, source);
   add(names.diagnostics, std::move(report.diagnostics));
   return {std::move(report.value), std::move(names.diagnostics)};
 }
@@ -104,8 +117,8 @@ Result<WatchReport> watched(const Options& options, const InputFile& file,
     result.value = std::move(report.value);
   };
   if (is_log(file.name, file.text)) {
-    ask(read_log(file.name, file.text, options.topic,
-                 {.max_bytes = memory_limit(options)}),
+    ask(read_whole_log(options, file.name, file.text,
+                       {.max_bytes = memory_limit(options)}),
         [&](const BehaviorLog& log) {
           return watched_log(options, file, rules, *read.value, log);
         });
@@ -134,17 +147,77 @@ bool keep_runs(const Options& options, const WatchReport& report) {
 
 }  // namespace
 
-ExitCode watch_recorded(const Options& options, const InputFile& file) {
-  std::vector<InputFile> asked;
-  for (const std::string& name : options.properties) {
-    auto rules = read_file(name);
-    show(options, rules.diagnostics);
-    if (!rules.value) return ExitCode::BadInput;
-    asked.push_back(std::move(*rules.value));
+LogReading reading_of(const Options& options) {
+  LogReading reading;
+  reading.tick_time = std::int64_t{options.tick_ms} * 1000;
+  reading.is_time_said = options.given.contains("--tick-ms");
+  if (options.tick_gap) {
+    reading.tick_gap = std::int64_t{*options.tick_gap} * 1000;
   }
-  if (!options.rules.empty()) asked.push_back(typed_rules(options.rules));
+  return reading;
+}
+
+std::optional<Result<InputFile>> marks_beside(const Options& options,
+                                              const std::string& name,
+                                              std::string_view bytes) {
+  const std::string marks = name + std::string(kMarksEnding);
+  std::error_code error;
+  if (!bytes.starts_with(kBtlogMagic) ||
+      !std::filesystem::exists(marks, error)) {
+    return std::nullopt;
+  }
+  return read_file_in(options.roots, marks);
+}
+
+Result<BehaviorLog> read_whole_log(const Options& options,
+                                   const std::string& name,
+                                   std::string_view bytes,
+                                   const Limits& limits) {
+  auto log = read_log(name, bytes, options.topic, limits);
+  if (!log.value) return log;
+  auto marks = marks_beside(options, name, bytes);
+  if (!marks) return log;
+  add(log.diagnostics, std::move(marks->diagnostics));
+  if (marks->value) {
+    const InputFile& file = *marks->value;
+    add(log.diagnostics, read_marks(file.name, file.text, *log.value, limits));
+  }
+  if (has_error(log.diagnostics)) log.value.reset();
+  return log;
+}
+
+std::optional<std::vector<LiveRules>> live_rules(const Options& options,
+                                                 const std::string& file) {
+  const auto asked = asked_rules(options);
+  if (!asked) return std::nullopt;
+  std::vector<LiveRules> all;
+  for (const InputFile& rules : *asked) {
+    auto read = read_properties(rules.name, rules.text);
+    show(options, read.diagnostics);
+    if (!read.value) return std::nullopt;
+    LiveRules& made = all.emplace_back(
+        LiveRules{std::move(*read.value), SourceText(rules.name, rules.text)});
+    if (made.file.tree.empty()) {
+      made.place = [file](const BehaviorLog& log) -> Result<LogInTree> {
+        if (!log.has_places()) return {std::nullopt, {without_tree(file)}};
+        RecordedRun names = LogPlayer(log, {}).heading();
+        names.tree = file;
+        return {LogInTree{std::move(names), log}, {}};
+      };
+    } else {
+      made.place = [&options, rules, file](const BehaviorLog& log) {
+        return names_for(options, rules, file, log);
+      };
+    }
+  }
+  return all;
+}
+
+ExitCode watch_recorded(const Options& options, const InputFile& file) {
+  const auto asked = asked_rules(options);
+  if (!asked) return ExitCode::BadInput;
   std::vector<WatchReport> reports;
-  for (const InputFile& rules : asked) {
+  for (const InputFile& rules : *asked) {
     Result<WatchReport> report = watched(options, file, rules);
     show(options, report.diagnostics);
     if (!report.value) return ExitCode::BadInput;

@@ -117,10 +117,10 @@ Result<std::string> converted_log(const InputFile& file,
                         "else",
                         "write --to text")}};
   }
-  Result<BehaviorLog> read = read_log(file.name, file.text, options.topic,
-                                      {.max_bytes = memory_limit(options)});
+  Result<BehaviorLog> read = read_whole_log(
+      options, file.name, file.text, {.max_bytes = memory_limit(options)});
   Result<std::string> result{std::nullopt, std::move(read.diagnostics)};
-  if (read.value) result.value = log_text(*read.value);
+  if (read.value) result.value = log_text(*read.value, reading_of(options));
   return result;
 }
 

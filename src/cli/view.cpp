@@ -10,9 +10,11 @@
 #include <thread>
 #include <tuple>
 
+#include "cli/console/console.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/outputs/open_view.hpp"
+#include "cli/recordings.hpp"
 #include "trace/live/live_log.hpp"
 #include "trace/logs/behavior_log.hpp"
 
@@ -30,18 +32,30 @@ constexpr std::chrono::milliseconds kPatience{2000};
 auto stamp_of(const std::string& name) {
   struct stat found {};
   ::stat(name.c_str(), &found);
+  struct stat marks {};
+  ::stat((name + std::string(kMarksEnding)).c_str(), &marks);
   return std::tuple(found.st_ino, found.st_size, found.st_mtim.tv_sec,
-                    found.st_mtim.tv_nsec);
+                    found.st_mtim.tv_nsec, marks.st_ino, marks.st_size,
+                    marks.st_mtim.tv_sec, marks.st_mtim.tv_nsec);
 }
 
-std::vector<Diagnostic> reread(const std::string& name, LiveLog& log) {
+std::vector<Diagnostic> reread(const Options& options, const InputFile& file,
+                               LiveLog& log) {
+  const auto marks = marks_beside(options, file.name, file.text);
+  if (marks && !marks->value) return marks->diagnostics;
+  return log.take(file.text, marks ? &marks->value->text.text() : nullptr);
+}
+
+std::vector<Diagnostic> reread(const Options& options, const std::string& name,
+                               LiveLog& log) {
   const auto file = read_file(name);
-  return file.value ? log.take(file.value->text) : file.diagnostics;
+  return file.value ? reread(options, *file.value, log) : file.diagnostics;
 }
 
 // Until it is interrupted; or until the log is beyond reading, which is
 // returned.
-std::vector<Diagnostic> follow(const std::string& name, LiveLog& log) {
+std::vector<Diagnostic> follow(const Options& options, const std::string& name,
+                               LiveLog& log) {
   auto stamp = stamp_of(name);
   std::vector<Diagnostic> flaws;
   Clock::time_point good = Clock::now();
@@ -52,7 +66,7 @@ std::vector<Diagnostic> follow(const std::string& name, LiveLog& log) {
     if (now != stamp || !flaws.empty()) {
       const Clock::time_point begin = Clock::now();
       stamp = now;
-      flaws = reread(name, log);
+      flaws = reread(options, name, log);
       rest = std::max<Clock::duration>(kLook, 4 * (Clock::now() - begin));
     }
     if (flaws.empty()) good = Clock::now();
@@ -70,8 +84,10 @@ ExitCode view_log(const Options& options, const InputFile& file) {
                               "write --to html, and open that page")});
     return ExitCode::BadInput;
   }
-  LiveLog log(file.name, std::int64_t{options.tick_ms} * 1000, options.topic);
-  std::vector<Diagnostic> flaws = log.take(file.text);
+  auto rules = live_rules(options, file.name);
+  if (!rules) return ExitCode::BadInput;
+  LiveLog log(file.name, reading_of(options), options.topic, std::move(*rules));
+  std::vector<Diagnostic> flaws = reread(options, file, log);
   if (!flaws.empty()) {
     show(options, flaws);
     return ExitCode::BadInput;
@@ -80,12 +96,14 @@ ExitCode view_log(const Options& options, const InputFile& file) {
   const BudgetScope own_way(nullptr);
   LiveServer server(log.run());
   if (!open_view(options, server)) return ExitCode::BadInput;
-  flaws = follow(file.name, log);
+  flaws = follow(options, file.name, log);
   log.end(flaws.empty() ? "btcheck follows the log no longer"
                         : "the log cannot be read any further");
   server.finish(kViewPatience);
   show(options, flaws);
-  return flaws.empty() ? ExitCode::Met : ExitCode::BadInput;
+  if (!flaws.empty()) return ExitCode::BadInput;
+  print(log.verdicts_text());
+  return log.is_broken() ? ExitCode::Missed : ExitCode::Met;
 }
 
 }  // namespace btcheck

@@ -18,7 +18,7 @@ struct Words {
   std::string_view field;  // the option's name where no request has it
 };
 
-constexpr std::array<Words, 20> kWords = {{
+constexpr std::array<Words, 21> kWords = {{
     {Choice::Assume, "--assume", "`assume`"},
     {Choice::Disk, "--on-disk", "`on_disk`"},
     {Choice::Export, "--export", "`export`"},
@@ -33,6 +33,7 @@ constexpr std::array<Words, 20> kWords = {{
     {Choice::Reduce, "--reduce", "`reduce`"},
     {Choice::Rules, "--prop", "`rules`"},
     {Choice::Tick, "--tick", "`ticks`"},
+    {Choice::TickGap, "--tick-gap", "`tick_gap`"},
     {Choice::TickMs, "--tick-ms", "`tick_milliseconds`"},
     {Choice::Ticks, "--ticks", "`ticks`"},
     {Choice::Timeout, "--timeout", "`seconds`"},

@@ -28,6 +28,7 @@ enum class Choice : std::uint8_t {
   Reduce,
   Rules,
   Tick,
+  TickGap,
   TickMs,
   Ticks,
   Timeout,

@@ -102,9 +102,10 @@ void settle_search(const OptionWords& words, Options& options) {
   }
 }
 
+constexpr int kMostMilliseconds = 3'600'000;
+
 // How trees are read.
 void settle_trees(const OptionWords& words, Options& options) {
-  constexpr int kMostMilliseconds = 3'600'000;
   settle_choice(words, "--profile", options.profile);
   options.models = words.all("--models");
   options.leaves = words.all("--leaves");
@@ -245,7 +246,6 @@ void settle_simulation(const OptionWords& words, Options& options) {
 // Who answers for the leaves of a tree that is run.
 void settle_run(const OptionWords& words, Options& options) {
   if (options.command != Command::Run) return;
-  constexpr int kMostMilliseconds = 3'600'000;
   ExecutionPlan& plan = options.run;
   SimulationPlan& simulated = options.simulation;
   plan.leaves = words.value("--leaves-exec");
@@ -376,7 +376,7 @@ void settle_recorded(const OptionWords& words, const Options& options) {
            "--trace-dir writes a page for each rule that is broken");
   }
   for (const std::string_view name :
-       {"--prop", "-e", "--to", "-o", "--at", "-v"}) {
+       {"--to", "-o", "--at", "-v", "--trace-dir"}) {
     if (!options.view || !words.has(name)) continue;
     refuse(fmt::format("{} and --view do not go together", name),
            "btcheck trace robot.btlog --view");
@@ -391,6 +391,28 @@ void settle_recorded(const OptionWords& words, const Options& options) {
     if (is_used || !words.has(name)) continue;
     refuse(fmt::format("{} needs --prop", name),
            "btcheck trace RUN --prop RULES.ltl");
+  }
+}
+
+// Ticks are asked for where a log is read, and where they matter.
+void settle_tick_gap(const OptionWords& words, Options& options) {
+  if (!words.has("--tick-gap")) return;
+  int gap = 0;
+  settle_number(words, "--tick-gap", 1, kMostMilliseconds, gap);
+  options.tick_gap = gap;
+  switch (options.command) {
+    case Command::Trace:
+      if (!words.has("--tree")) return;
+      return refuse("--tick-gap and --tree do not go together",
+                    "btcheck trace run.csv --tree TREE --to text");
+    case Command::Conform:
+      if (words.has("--learn-leaves")) return;
+      return refuse("--tick-gap needs --learn-leaves",
+                    "whether a log conforms does not depend on it");
+    default:
+      if (words.has("--from") && options.from_tick) return;
+      return refuse("--tick-gap needs --from LOG@TICK",
+                    "btcheck TREE --from robot.btlog@12 --tick-gap 5");
   }
 }
 
@@ -618,6 +640,7 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_from(words, options);
   settle_topic(words, options);
   settle_namespace(words, options);
+  settle_tick_gap(words, options);
   settle_against(words, options);
   settle_batch(words, options);
   settle_watch(words, options);

@@ -166,6 +166,7 @@ struct Options {
   // begin; without one at its last state.
   std::string from;
   std::optional<int> from_tick;
+  std::optional<int> tick_gap;  // --tick-gap, in milliseconds
   std::string topic;    // --topic, of a recording of ROS 2; "": the only one
   std::string learned;  // conform: --learn-leaves; "" for none
   bool tells_coverage = false;  // conform: --coverage

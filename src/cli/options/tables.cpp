@@ -311,6 +311,13 @@ constexpr OptionRow kOptions[] = {
      .commands = {Trace, Monitor},
      .first = {Monitor},
      .example = "btcheck trace robot.btlog --prop RULES.ltl --tick-ms 10"},
+    {.name = "--tick-gap",
+     .value = "MILLISECONDS",
+     .fallback = "where ticks begin is not known",
+     .help = "logs without ticks: a pause as long or longer parts two ticks, a "
+             "shorter one does not",
+     .commands = {Check, Space, Trace, Simulate, Conform},
+     .example = "btcheck trace robot.btlog --prop RULES.ltl --tick-gap 5"},
     {.name = "--models",
      .value = "FILE",
      .names = ValueKind::File,

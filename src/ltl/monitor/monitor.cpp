@@ -290,6 +290,7 @@ void MonitorRun::settle() {
     return monitor_->outlook[state] == first;
   });
   outlook_ = do_agree ? first : Outlook::Open;
+  is_torn_ = !do_agree;
 }
 
 void MonitorRun::follow(PropositionSet label, PropositionSet unknown) {

@@ -75,6 +75,9 @@ class MonitorRun {
   // Or any number of such labels more, none included.
   Outlook read_more(PropositionSet label, PropositionSet unknown);
   Outlook outlook() const { return outlook_; }
+  // How many ways are followed, and whether they say different things.
+  std::size_t ways() const { return states_.size(); }
+  bool is_torn() const { return is_torn_; }
 
  private:
   void settle();
@@ -85,6 +88,7 @@ class MonitorRun {
   std::vector<std::uint32_t> states_{0};  // ascending, each once
   std::vector<std::uint32_t> next_;
   Outlook outlook_ = Outlook::Open;
+  bool is_torn_ = false;
 };
 
 }  // namespace btcheck

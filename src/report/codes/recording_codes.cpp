@@ -182,7 +182,23 @@ constexpr CodeRow kRecordingCodes[] = {
                  .rules = "property p: never a.failure",
                  .other_name = "events.txt",
                  .other = "a has failed",
-                 .command = "monitor tree.btf --prop rules.ltl < events.txt"}}};
+                 .command = "monitor tree.btf --prop rules.ltl < events.txt"}},
+    {.code = "BT1814",
+     .summary = "a tick of a log that does not show its ticks",
+     .description =
+         "BehaviorTree.CPP logs changes of status. Which of them are of one "
+         "tick it does not log, and where that decides something it is not "
+         "guessed.",
+     .help = "Attach btcheck::observer to the tree, or say --tick-gap.",
+     .example = {.body = "<Grab/>",
+                 .models = "<Action ID=\"Grab\"/>",
+                 .command =
+                     R"($ xml='<root><BehaviorTree ID="MainTree">)"
+                     R"(<Grab _uid="1"/></BehaviorTree></root>'; )"
+                     R"({ printf 'BTCPP4-FileLogger2\1\%o\0\0\0%s' )"
+                     R"(${#xml} "$xml"; printf '%017d' 0 | tr 0 '\0'; } )"
+                     "> robot.btlog\n"
+                     "tree.xml --from robot.btlog@1"}}};
 
 }  // namespace
 

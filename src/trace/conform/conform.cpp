@@ -241,12 +241,14 @@ struct Wanted {
   LogEvent event;
   std::size_t record = 0;
   std::int64_t tick = 0;
+  bool is_answer = false;  // whether or not it changes the status
 };
 
 // A change that a step makes.
 struct Change {
   LogEvent event;
   bool is_optional = false;  // up to the user's program
+  bool is_answer = false;
 };
 
 // What one step of the network writes into a log.
@@ -258,11 +260,13 @@ struct Change {
 // which have no such status, a node with children is RUNNING once it is ticked.
 class Observer {
  public:
+  // `answers`: of which nodes the log has each answer.
   Observer(const BehaviorTree& tree, const CompiledNetwork& system,
-           const LoggedNodes& nodes, bool is_own)
+           const LoggedNodes& nodes, bool is_own, std::vector<bool> answers)
       : tree_(tree),
         system_(system),
         nodes_(nodes),
+        answers_(std::move(answers)),
         keeps_status_(is_engine(tree.profile) && !is_own) {
     const Network& network = system.network();
     by_status_.resize(network.variables.size());
@@ -301,6 +305,45 @@ class Observer {
            std::vector<Change>& changes) const {
     if (step.edge == kTimeStep) return;
     const Told& told = by_edge_[step.edge];
+    see_changes(told, state, statuses, changes);
+    if (answers_.empty() || !answers_[index(told.node)]) return;
+    const auto answer = answer_of(told.role);
+    if (!answer) return;
+    // The engine sets the status of a node that has answered.
+    const Change own{{told.node, *answer}, false, true};
+    const auto place = std::ranges::find(changes, own.event, &Change::event);
+    changes.insert(place, own);
+  }
+
+ private:
+  static std::optional<LogStatus> answer_of(LocationRole role) {
+    switch (role) {
+      case LocationRole::Success:
+        return LogStatus::Success;
+      case LocationRole::Failure:
+        return LogStatus::Failure;
+      case LocationRole::Running:
+        return LogStatus::Running;
+      case LocationRole::Skipped:
+        return LogStatus::Skipped;
+      case LocationRole::Inner:
+      case LocationRole::Start:
+      case LocationRole::Tick:
+      case LocationRole::Evaluate:
+      case LocationRole::Call:
+      case LocationRole::Called:
+      case LocationRole::Error:
+      case LocationRole::Halt:
+      case LocationRole::Halted:
+      case LocationRole::Done:
+        break;
+    }
+    return std::nullopt;
+  }
+
+  struct Told;
+  void see_changes(const Told& told, StateView state, std::span<Word> statuses,
+                   std::vector<Change>& changes) const {
     if (!keeps_status_) return see_entered(told, statuses, changes);
     for (const VariableId variable : told.statuses) {
       const NodeId node = *by_status_[index(variable)];
@@ -313,7 +356,6 @@ class Observer {
     if (told.begins) begin(told.node, statuses, changes);
   }
 
- private:
   static constexpr std::size_t kBits = 2;
   static constexpr std::size_t kInWord = sizeof(Word) * 8 / kBits;
 
@@ -519,6 +561,7 @@ class Observer {
   const BehaviorTree& tree_;
   const CompiledNetwork& system_;
   const LoggedNodes& nodes_;
+  std::vector<bool> answers_;  // by node; empty: the log has none
   bool keeps_status_;
   std::vector<std::size_t> place_;                // by node, in post-order
   std::vector<std::optional<NodeId>> by_status_;  // by variable
@@ -529,10 +572,11 @@ class Observer {
 class Follower {
  public:
   Follower(const BehaviorTree& tree, const CompiledNetwork& system,
-           const LoggedNodes& nodes, bool is_own, const Limits& limits)
+           const LoggedNodes& nodes, const BehaviorLog& log,
+           std::vector<bool> answers, const Limits& limits)
       : system_(system),
-        observer_(tree, system, nodes, is_own),
-        counts_ticks_(is_own),
+        observer_(tree, system, nodes, is_own(log), std::move(answers)),
+        counts_ticks_(is_own(log) || log.marks),
         limits_(limits),
         system_words_(system.word_count()),
         words_(system_words_ + observer_.words() + 1) {}
@@ -554,6 +598,10 @@ class Follower {
     found.records = furthest_;
     if (at < wanted.size()) {
       found.refused = wanted[refused_].record;
+      if (wanted[refused_].is_answer) {
+        found.refused_answer = wanted[refused_].event;
+      }
+      found.tick = wanted[refused_].tick;
       found.allowed = std::move(allowed_);
       found.is_in_wrong_tick = is_in_wrong_tick_;
       return;
@@ -633,10 +681,13 @@ class Follower {
       const Wanted& next = (*wanted_)[at];
       const bool is_in_time =
           !counts_ticks_ || reached_.back() == static_cast<Word>(next.tick);
-      const bool is_that = next.event == change.event;
+      const bool is_that =
+          next.event == change.event && next.is_answer == change.is_answer;
       if (is_that && is_in_time) {
         ++at;
-        observer_.note(change.event, statuses_of(reached_));
+        if (!change.is_answer) {
+          observer_.note(change.event, statuses_of(reached_));
+        }
       } else if (!change.is_optional) {
         return note_refused(at, change.event, is_that);
       }
@@ -691,51 +742,113 @@ class Follower {
   std::vector<Change> changes_;
 };
 
-// The records that a model has to take; a record that contradicts an earlier
-// one ends them.
-std::vector<Wanted> wanted_of(const BehaviorLog& log, const LoggedNodes& nodes,
-                              std::optional<int> until, Conformance& found) {
-  constexpr std::int64_t kTickTimeUnknown = 100'000;
-  std::vector<Wanted> wanted;
-  TickCounter ticks(log, kTickTimeUnknown);
-  std::int64_t time = 0;
-  for (std::size_t i = 0; i < log.transitions.size(); ++i) {
-    const LogTransition& record = log.transitions[i];
-    const std::int64_t tick = ticks.tick_at(record.time);
-    if (until && tick > *until) break;
+// The records that a model has to take, and the answers where the log has them;
+// a record that contradicts an earlier one ends them.
+class WantedEvents {
+ public:
+  WantedEvents(const BehaviorLog& log, const LoggedNodes& nodes,
+               std::optional<int> until, Conformance& found)
+      : log_(log), nodes_(nodes), until_(until), found_(found) {}
+
+  std::vector<Wanted> all(const LogReading& reading) {
+    if (log_.marks) {
+      each_mark(*log_.marks, [&](const LogMark& mark) { take(mark); });
+      return std::move(wanted_);
+    }
+    const std::vector<std::int64_t> ticks = ticks_of(log_, reading);
+    for (; record_ < ticks.size() && !is_over(ticks[record_]); ++record_) {
+      take_record(ticks[record_]);
+    }
+    return std::move(wanted_);
+  }
+
+  // Of which nodes there are answers.
+  std::vector<bool> answers(std::size_t count) const {
+    std::vector<bool> answers;
+    if (!log_.marks) return answers;
+    answers.resize(count, false);
+    for (const LogMark& mark : log_.marks->events) {
+      if (mark.kind == MarkKind::NodeAnswers) {
+        answers[index(nodes_.node(mark.uid))] = true;
+      }
+    }
+    return answers;
+  }
+
+ private:
+  bool is_over(std::int64_t tick) const {
+    return !found_.contradiction.empty() || (until_ && tick > *until_);
+  }
+
+  void take(const LogMark& mark) {
+    if (begins_tick(mark)) ++tick_;
+    if (begins_tick(mark)) is_in_tick_ = true;
+    if (mark.kind == MarkKind::TickEnds || mark.kind == MarkKind::TickIsLeft) {
+      is_in_tick_ = false;
+    }
+    if (is_over(tick_)) return;
+    if (mark.kind == MarkKind::NodeAnswers) {
+      wanted_.push_back({{nodes_.node(mark.uid), mark.status},
+                         std::min(record_, log_.transitions.size() - 1),
+                         tick_,
+                         true});
+    }
+    if (mark.kind == MarkKind::WasBefore) ++record_;
+    if (mark.kind != MarkKind::Record) return;
+    // A thread sets what its node answers in the next tick.
+    const bool is_ahead =
+        !is_in_tick_ && log_.transitions[record_].after != LogStatus::Idle;
+    take_record(is_ahead ? tick_ + 1 : tick_);
+    ++record_;
+  }
+
+  void take_record(std::int64_t tick) {
+    const LogTransition& record = log_.transitions[record_];
     if (record.before == record.after) {
-      found.contradiction =
+      found_.contradiction =
           fmt::format("it is {} already",
                       kLogStatusNames[static_cast<std::size_t>(record.after)]);
-    } else if (record.time < time && is_own(log)) {
-      found.contradiction = "it is earlier than the record before";
+    } else if (record.time < time_ && is_own(log_)) {
+      found_.contradiction = "it is earlier than the record before";
     }
-    time = record.time;
-    if (!found.contradiction.empty()) {
-      found.refused = i;
-      return wanted;
+    time_ = record.time;
+    if (!found_.contradiction.empty()) {
+      found_.refused = record_;
+      return;
     }
     const bool is_reset =
         record.before != LogStatus::Running &&
         (record.after == LogStatus::Idle || record.after == LogStatus::Skipped);
-    if (is_reset) continue;
+    if (is_reset) return;
     const LogStatus status =
         record.after == LogStatus::Skipped ? LogStatus::Idle : record.after;
-    wanted.push_back({{nodes.node(record.uid), status}, i, tick});
+    wanted_.push_back({{nodes_.node(record.uid), status}, record_, tick});
   }
-  return wanted;
-}
+
+  const BehaviorLog& log_;
+  const LoggedNodes& nodes_;
+  const std::optional<int> until_;
+  Conformance& found_;
+  std::vector<Wanted> wanted_;
+  std::size_t record_ = 0;
+  std::int64_t tick_ = 0;
+  std::int64_t time_ = 0;
+  bool is_in_tick_ = false;
+};
 
 }  // namespace
 
 Conformance conform(const BehaviorTree& tree, const CompiledNetwork& system,
                     const BehaviorLog& log, const LoggedNodes& nodes,
-                    const Limits& limits, std::optional<int> until) {
+                    const Limits& limits, std::optional<int> until,
+                    const LogReading& reading) {
   Conformance found;
-  const std::vector<Wanted> wanted = wanted_of(log, nodes, until, found);
+  WantedEvents events(log, nodes, until, found);
+  const std::vector<Wanted> wanted = events.all(reading);
   const auto contradicted = found.refused;
   found.refused.reset();
-  Follower(tree, system, nodes, is_own(log), limits).run(wanted, found);
+  Follower(tree, system, nodes, log, events.answers(tree.nodes.size()), limits)
+      .run(wanted, found);
   if (!found.refused && contradicted && found.stopped == StopReason::None) {
     found.refused = contradicted;
     found.states.clear();

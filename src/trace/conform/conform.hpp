@@ -65,6 +65,10 @@ struct Conformance {
   SearchProgress progress;
   // The first record that no run takes after the ones before it, from 0.
   std::optional<std::size_t> refused;
+  // Of a log with marks: the answer that no run gives; then `refused` is the
+  // record that follows it, or the last one.
+  std::optional<LogEvent> refused_answer;
+  std::int64_t tick = 0;      // of it
   std::string contradiction;  // with an earlier record, "" where there is none
   std::vector<LogEvent> allowed;  // what the model could have done there
   // It could have come, in another tick.
@@ -83,6 +87,7 @@ struct Conformance {
 // With `until` the log is read to the end of that tick.
 Conformance conform(const BehaviorTree& tree, const CompiledNetwork& system,
                     const BehaviorLog& log, const LoggedNodes& nodes,
-                    const Limits& limits, std::optional<int> until = {});
+                    const Limits& limits, std::optional<int> until = {},
+                    const LogReading& reading = {});
 
 }  // namespace btcheck

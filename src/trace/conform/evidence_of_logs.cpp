@@ -33,10 +33,12 @@ bool has_contract(const BehaviorTree& tree, const Node& node) {
 }  // namespace
 
 void LogEvidence::add(const BehaviorLog& log, const LoggedNodes& nodes,
-                      std::int64_t tick_time) {
+                      const LogReading& reading) {
   ++logs_;
+  is_guessed_ |= !knows_ticks(log, reading);
   std::map<std::uint16_t, std::int64_t> began;  // by uid: the tick
-  TickCounter ticks(log, tick_time);
+  const std::vector<std::int64_t> ticks = ticks_of(log, reading);
+  std::size_t number = 0;
   std::int64_t tick = 0;
   const auto ran = [&](std::uint16_t uid) {
     const auto found = began.find(uid);
@@ -47,8 +49,7 @@ void LogEvidence::add(const BehaviorLog& log, const LoggedNodes& nodes,
   };
   const LogTransition* last = nullptr;
   for (const LogTransition& record : log.transitions) {
-    const std::int64_t last_tick =
-        std::exchange(tick, ticks.tick_at(record.time));
+    const std::int64_t last_tick = std::exchange(tick, ticks[number++]);
     const LogTransition* before = std::exchange(last, &record);
     Counts& counts = nodes_[index(nodes.node(record.uid))];
     // RUNNING, and at once the answer: a SimpleActionNode calls its function.
@@ -118,6 +119,12 @@ std::string LogEvidence::leaves_text() const {
       "; been seen may happen all the same.\n",
       logs_ == 1 ? "one log" : counted(logs_, "logs"), one_line(tree_.file),
       logs_ == 1 ? "s" : "");
+  if (is_guessed_) {
+    text += fmt::format(
+        "; Where ticks begin is not logged: here, a pause of {} ms parts two\n"
+        "; of them, and durations are as good as that.\n",
+        kTickPause / 1000);
+  }
   for (const auto& [name, entry] : types) {
     const auto& [node, all] = entry;
     std::vector<std::string> returns;

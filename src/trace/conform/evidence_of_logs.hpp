@@ -24,7 +24,7 @@ class LogEvidence {
       : tree_(tree), nodes_(tree.nodes.size()) {}
 
   void add(const BehaviorLog& log, const LoggedNodes& nodes,
-           std::int64_t tick_time);
+           const LogReading& reading);
 
   // A contract for each type of leaf that the logs show, as a file for
   // --leaves: the answers seen and how many ticks they took, with a
@@ -62,6 +62,7 @@ class LogEvidence {
   const BehaviorTree& tree_;
   std::vector<Counts> nodes_;  // by node
   std::size_t logs_ = 0;
+  bool is_guessed_ = false;  // where ticks begin, in one of them
 };
 
 }  // namespace btcheck

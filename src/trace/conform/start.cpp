@@ -164,8 +164,15 @@ Result<States> states_after(const std::string& file, const BehaviorTree& tree,
 Result<States> states_after(const std::string& file, const BehaviorTree& tree,
                             const Network& network,
                             const RecordedRun& recorded_tree,
-                            const BehaviorLog& log, std::optional<int> tick,
-                            const Limits& limits) {
+                            const BehaviorLog& log, const LogReading& reading,
+                            std::optional<int> tick, const Limits& limits) {
+  if (tick && !knows_ticks(log, reading)) {
+    return refused(
+        "BT1814", file,
+        fmt::format("this log does not show where its tick {} ends", *tick),
+        fmt::format("attach btcheck::observer to the tree, or say {}",
+                    word(Choice::TickGap, "MS")));
+  }
   auto in_tree = placed(log, tree, recorded_tree);
   for (Diagnostic& found : in_tree.diagnostics) found.file = file;
   if (!in_tree.value) return {std::nullopt, std::move(in_tree.diagnostics)};
@@ -177,7 +184,7 @@ Result<States> states_after(const std::string& file, const BehaviorTree& tree,
   }
   const CompiledNetwork system(network);
   const Conformance found =
-      conform(tree, system, log_there, *nodes.value, limits, tick);
+      conform(tree, system, log_there, *nodes.value, limits, tick, reading);
   if (found.stopped != StopReason::None) {
     return refused("BT1808", file,
                    "where the log ends was not found within the limits",

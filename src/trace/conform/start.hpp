@@ -28,11 +28,12 @@ Result<std::vector<Valuation>> states_after(const std::string& file,
                                             const RecordedRun& run,
                                             std::optional<int> tick);
 
-// The same of a log, by following it in the network (conform.hpp).
+// The same of a log, by following it in the network (conform.hpp). Refused is a
+// tick of a log that does not show where its ticks begin (BT1814).
 Result<std::vector<Valuation>> states_after(
     const std::string& file, const BehaviorTree& tree, const Network& network,
     const RecordedRun& recorded_tree, const BehaviorLog& log,
-    std::optional<int> tick, const Limits& limits);
+    const LogReading& reading, std::optional<int> tick, const Limits& limits);
 
 // A clock has run there. Networks begin with all clocks at 0.
 bool has_clock(const Valuation& state);

@@ -32,8 +32,36 @@ void LiveRun::open_chapter(RecordedRun beginning) {
   Json document = packer_->about();
   document.add("live", chapter_);
   if (kind_ == Kind::Replaced) document.add("replaced", 1);
+  if (!rules_.empty()) document.add("rules", told_rules());
   packer_->add(beginning_->states, document);
   packed_ = safe_json(document);
+}
+
+// States are told as numbers of the chapter's; those that are dropped, not.
+Json LiveRun::told_rules() const {
+  Json list = Json::array();
+  for (const LiveVerdict& rule : rules_) {
+    Json told{{"name", rule.name},
+              {"text", rule.text},
+              {"verdict", rule.verdict},
+              {"moment", rule.moment}};
+    if (rule.state != kNoState && rule.state >= before_) {
+      told.add("step", rule.state - before_);
+    }
+    if (rule.is_expected) told.add("expected", 1);
+    list.push(std::move(told));
+  }
+  return list;
+}
+
+void LiveRun::judge(std::vector<LiveVerdict> rules) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (rules == rules_) return;
+    rules_ = std::move(rules);
+    push("verdict", told_rules().text());
+  }
+  tell();
 }
 
 void LiveRun::push(std::string_view event, std::string_view data) {
@@ -53,6 +81,7 @@ void LiveRun::add(std::span<const RecordedState> states) {
       RecordedRun beginning = *beginning_;
       beginning.states = {states.front()};
       states = states.subspan(1);
+      before_ += states_;
       open_chapter(std::move(beginning));
     }
     Json document = Json::object();
@@ -76,6 +105,8 @@ void LiveRun::end(std::string_view words) {
 void LiveRun::begin_anew(RecordedRun beginning) {
   {
     const std::lock_guard lock(mutex_);
+    before_ = 0;
+    rules_.clear();
     open_chapter(std::move(beginning));
   }
   tell();

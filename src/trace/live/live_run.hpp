@@ -23,10 +23,23 @@
 #include <utility>
 #include <vector>
 
+#include "text/json.hpp"
 #include "trace/run/recorded_run.hpp"
 #include "trace/viewer/packed.hpp"
 
 namespace btcheck {
+
+// A rule, and what the run so far says of it.
+struct LiveVerdict {
+  std::string name;
+  std::string text;
+  std::string verdict;           // OPEN, SATISFIED, VIOLATED, EXCLUDED
+  std::string moment = {};       // when it was decided, or why it is not
+  std::size_t state = kNoState;  // that decided it, from the run's first, 0
+  bool is_expected = false;      // to be violated
+
+  friend bool operator==(const LiveVerdict&, const LiveVerdict&) = default;
+};
 
 class LiveRun {
  public:
@@ -44,6 +57,9 @@ class LiveRun {
   // over; after that nothing is added.
   void add(std::span<const RecordedState> states);
   void end(std::string_view words);
+  // All rules that are asked of the run, in their order, once what is said of
+  // one of them has changed. States that they name have been added before.
+  void judge(std::vector<LiveVerdict> rules);
   // Another run in the place of this one.
   void begin_anew(RecordedRun beginning);
   // Called after each of these, by the thread that has added.
@@ -73,6 +89,7 @@ class LiveRun {
   static constexpr std::size_t kMostCells = std::size_t{1} << 26;
 
   void open_chapter(RecordedRun beginning);
+  Json told_rules() const;
   void push(std::string_view event, std::string_view data);
   void tell() const;
 
@@ -85,6 +102,8 @@ class LiveRun {
   std::unique_ptr<RunPacker> packer_;
   std::vector<Message> messages_;  // of the chapter
   std::size_t states_ = 0;         // of the chapter
+  std::size_t before_ = 0;         // states of the run before the chapter
+  std::vector<LiveVerdict> rules_;
   bool is_over_ = false;
   std::function<void()> hear_;
 };

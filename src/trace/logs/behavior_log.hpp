@@ -15,6 +15,7 @@
 
 #include "explore/state/limits.hpp"
 #include "text/diagnostic.hpp"
+#include "trace/logs/marks.hpp"
 
 namespace btcheck {
 
@@ -64,6 +65,7 @@ struct BehaviorLog {
   std::vector<LogTransition> transitions;
   std::string topic;     // of a recording of ROS 2, else ""
   bool has_uids = true;  // else its nodes are numbered as they come
+  std::optional<LogMarks> marks = {};  // of btcheck::observer
 
   // False for a recording of ROS 2: nodes are names, until they are `placed`.
   bool has_places() const { return topic.empty(); }
@@ -87,32 +89,43 @@ bool is_log(std::string_view file, std::string_view bytes);
 // True for a log that btcheck wrote: its times are synthetic.
 bool is_own(const BehaviorLog& log);
 
-// Which pauses part two ticks, in microseconds: within one, changes follow one
-// another at once but where a function blocks; between two, the executor
-// sleeps.
-inline constexpr std::int64_t kTickPause = 5'000;  // as good a mark as there is
-inline constexpr std::int64_t kLeastPause = 1'000;  // less is within a tick
-// As much or more parts two ticks of so long each: three quarters, as a tick
-// itself takes some of the time.
-constexpr std::int64_t most_pause(std::int64_t tick_time) {
-  return std::max(tick_time / 4 * 3, kLeastPause);
+// What is known of the ticks of a log that does not have them: in microseconds.
+struct LogReading {
+  std::int64_t tick_time = 100'000;  // from one to the next
+  bool is_time_said = false;         // by somebody who knows the robot
+  // A pause of that length or more parts two ticks, a shorter one does not.
+  // Nobody says so: where ticks begin is not known.
+  std::optional<std::int64_t> tick_gap = {};
+};
+
+// Whether it is known where each tick of a log begins.
+inline bool knows_ticks(const BehaviorLog& log, const LogReading& reading) {
+  return is_own(log) || log.marks || reading.tick_gap.has_value();
 }
+
+// A pause that is shown as one between two ticks where nobody says better:
+// within a tick, changes follow one another at once but where a function
+// blocks; between two, the executor sleeps. Nothing is decided by it.
+inline constexpr std::int64_t kTickPause = 5'000;
 
 // Counts the ticks of a log, record by record. A log that btcheck wrote has
 // them. In others a pause parts two ticks, and the time from the beginning of
-// the one to that of the other says how many there were, `tick_time`
-// microseconds each.
+// the one to that of the other says how many there were; or only those with
+// records are counted, where the gap is said and the time is not.
 class TickCounter {
  public:
-  TickCounter(const BehaviorLog& log, std::int64_t tick_time,
-              std::int64_t pause = kTickPause)
-      : is_own_(is_own(log)), tick_time_(tick_time), pause_(pause) {}
+  TickCounter(const BehaviorLog& log, const LogReading& reading)
+      : is_own_(is_own(log)),
+        is_counted_(!reading.tick_gap || reading.is_time_said),
+        tick_time_(reading.tick_time),
+        pause_(reading.tick_gap.value_or(kTickPause)) {}
 
   // The tick of a record at this time, from 1; never less than the last one.
   std::int64_t tick_at(std::int64_t time);
 
  private:
   bool is_own_;
+  bool is_counted_;
   std::int64_t tick_time_;
   std::int64_t pause_;
   std::int64_t tick_ = 0;
@@ -120,15 +133,20 @@ class TickCounter {
   std::int64_t last_ = 0;   // the record before
 };
 
+// The tick of each record, from 1: as the marks say, else as a TickCounter
+// does.
+std::vector<std::int64_t> ticks_of(const BehaviorLog& log,
+                                   const LogReading& reading);
+
 // The tree with its uids, then every change of a status in the style of
 // BehaviorTree.CPP's StdCoutLogger, under a heading for each tick:
 //
 //     after 0.030183 s
 //       [0.030183]    2 a                  RUNNING -> SUCCESS
 //
-// What has no ticks is parted where nothing changed for 5 ms; a log that
-// btcheck wrote has them, and its headings say `tick 1`.
-std::string log_text(const BehaviorLog& log);
+// What has no ticks is parted where nothing changed for as long as a gap, or
+// for 5 ms; a log that btcheck wrote has them, and its headings say `tick 1`.
+std::string log_text(const BehaviorLog& log, const LogReading& reading = {});
 
 // What a .btlog begins with, and the version of the format that follows.
 inline constexpr std::string_view kBtlogMagic = "BTCPP4-FileLogger2";

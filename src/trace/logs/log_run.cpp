@@ -21,22 +21,50 @@ namespace {
 // can be monitored counts further.
 constexpr std::int64_t kMostUnits = 1'000'000;
 
-Phase phase_of(LogStatus answer) {
-  if (answer == LogStatus::Success) return Phase::Success;
-  return answer == LogStatus::Failure ? Phase::Failure : Phase::Skipped;
-}
-
-// "success"
-const char* word_of(LogStatus answer) {
-  if (answer == LogStatus::Success) return "success";
-  return answer == LogStatus::Failure ? "failure" : "skipped";
-}
-
 }  // namespace
 
-LogPlayer::LogPlayer(const BehaviorLog& log, std::int64_t tick_time,
-                     std::int64_t pause)
-    : log_(log), ticks_(log, tick_time, pause) {
+void take_entries(RecordedRun& run, const LogMarks& marks) {
+  run.variables = marks.entries;
+  run.is_number.assign(marks.entries.size(), false);
+  run.has_entries = true;
+}
+
+Phase phase_of(LogStatus answer) {
+  switch (answer) {
+    case LogStatus::Success:
+      return Phase::Success;
+    case LogStatus::Failure:
+      return Phase::Failure;
+    case LogStatus::Running:
+      return Phase::Running;
+    case LogStatus::Idle:
+    case LogStatus::Skipped:
+      break;
+  }
+  return Phase::Skipped;
+}
+
+const char* word_of(LogStatus answer) {
+  switch (answer) {
+    case LogStatus::Success:
+      return "success";
+    case LogStatus::Failure:
+      return "failure";
+    case LogStatus::Running:
+      return "running";
+    case LogStatus::Idle:
+    case LogStatus::Skipped:
+      break;
+  }
+  return "skipped";
+}
+
+LogPlayer::LogPlayer(const BehaviorLog& log, const LogReading& reading,
+                     TickWays ways)
+    : log_(log),
+      reading_(reading),
+      has_all_ways_(ways == TickWays::All && !is_own(log) && !log.marks),
+      ticks_(log, reading) {
   heading_.ticks = "root";
   const std::string tree = log.tree.empty() ? "tree" : log.tree;
   heading_.nodes.push_back({"", "BehaviorTree", tree, 0, 0, std::nullopt});
@@ -45,6 +73,10 @@ LogPlayer::LogPlayer(const BehaviorLog& log, std::int64_t tick_time,
   for (const LogNode& node : log.nodes) {
     const std::size_t above = node.parent ? number_of(*node.parent) : 0;
     has_children[above] = true;
+    if (above == 0) {
+      ++tops_;
+      top_ = heading_.nodes.size();
+    }
     is_silent_.push_back(node.is_silent);
     if (above == 0 && node.is_silent) is_silent_[0] = true;
     heading_.nodes.push_back({"", node.type,
@@ -65,6 +97,9 @@ LogPlayer::LogPlayer(const BehaviorLog& log, std::int64_t tick_time,
   state_.statuses.assign(count, "idle");
   state_.locations.assign(count, "start_");
   state_.step = "start";
+  if (!log.marks) return;
+  take_entries(heading_, *log.marks);
+  state_.values.assign(log.marks->entries.size(), "unset");
 }
 
 std::size_t LogPlayer::number_of(std::uint16_t uid) const {
@@ -72,12 +107,19 @@ std::size_t LogPlayer::number_of(std::uint16_t uid) const {
 }
 
 Unseen LogPlayer::unseen(std::size_t node) const {
+  if (log_.marks) return Unseen::Nothing;
   if (is_silent_[node]) return Unseen::Anything;
+  if (node == 0) {
+    if (!is_root_known_) return Unseen::Anything;
+    return is_status_known_ ? Unseen::Nothing : Unseen::Status;
+  }
   const std::string& here = state_.locations[node];
   if (here != "start_" && here != "called") return Unseen::Nothing;
   if (maybe_halted_ == node) return Unseen::Halted;
-  if (node == 0) return Unseen::Nothing;
   if (status_[node] == LogStatus::Running) return Unseen::Running;
+  if (here == "called" && has_all_ways_ && !reading_.tick_gap) {
+    return Unseen::Called;
+  }
   if (here == "called" && status_[node] == LogStatus::Idle) {
     return Unseen::Skipped;
   }
@@ -86,7 +128,9 @@ Unseen LogPlayer::unseen(std::size_t node) const {
 }
 
 void LogPlayer::play(const std::function<bool()>& see) {
-  if (play_on(log_.transitions, see)) play_end(see);
+  if (log_.marks ? play_marks(see) : play_on(log_.transitions, see)) {
+    play_end(see);
+  }
 }
 
 bool LogPlayer::play_on(std::span<const LogTransition> records,
@@ -95,29 +139,143 @@ bool LogPlayer::play_on(std::span<const LogTransition> records,
   if (!has_begun_ && !see()) return false;
   has_begun_ = true;
   for (const LogTransition& record : records) {
-    if (!begin_tick(ticks_.tick_at(record.time))) return false;
+    const bool goes_on = !has_all_ways_
+                             ? begin_tick(ticks_.tick_at(record.time))
+                         : reading_.tick_gap ? part_at_gap(record.time)
+                                             : part_before(record);
+    if (!goes_on) return false;
     place_ = {played_++, record.time};
     if (!read(record)) return false;
+    const std::size_t node = number_of(record.uid);
+    const bool is_end = heading_.nodes[node].parent == 0 && tops_ == 1 &&
+                        is_completed(record.after) && !is_leaf_[node];
+    if (has_all_ways_ && !reading_.tick_gap && is_end && !is_over_ &&
+        !end_for_good()) {
+      return false;
+    }
   }
   return true;
+}
+
+// --- All ways ----------------------------------------------------------------
+
+bool LogPlayer::pass_time() {
+  state_.mover.reset();
+  state_.event.clear();
+  state_.step = "time passes";
+  ++state_.time;
+  return (*see_)();
+}
+
+// A pause that parts two ticks, as somebody says who knows; how many have been
+// in it, without a record, is known where the time of one is.
+bool LogPlayer::part_at_gap(std::int64_t time) {
+  const int before = state_.tick;
+  if (!begin_tick(ticks_.tick_at(time))) return false;
+  const bool is_counted =
+      before == 0 || before == state_.tick || reading_.is_time_said;
+  return is_counted || may_part(true);
+}
+
+// Ticks may have ended and begun before any record.
+bool LogPlayer::part_before(const LogTransition& record) {
+  if (state_.tick == 0) {
+    begin_ = record.time;
+    return may_part(false) && enter_tick(1);
+  }
+  if (is_over_) return part_at_end(record);
+  const bool is_answer =
+      record.after != LogStatus::Running && record.after != LogStatus::Idle;
+  const bool is_its_answer = is_answer && taken_up_ == number_of(record.uid);
+  return (is_its_answer || settle()) && may_part(true);
+}
+
+// The tick is over: what is no reset of a node is of a later one.
+bool LogPlayer::part_at_end(const LogTransition& record) {
+  const bool is_counted = reading_.is_time_said && !has_answered_;
+  if (!is_counted && !may_part(false)) return false;
+  if (record.after == LogStatus::Idle) {
+    is_time_open_ |= record.before == LogStatus::Running;
+    return true;
+  }
+  std::int64_t passed = std::exchange(is_time_open_, false) ? 0 : 1;
+  if (is_counted) {
+    const std::int64_t half = reading_.tick_time / 2;
+    passed = std::clamp((record.time - begin_ + half) / reading_.tick_time,
+                        passed, kMostUnits);
+  }
+  for (; passed > 0; --passed) {
+    if (!pass_time()) return false;
+  }
+  begin_ = record.time;
+  return enter_tick(std::int64_t{state_.tick} + 1);
+}
+
+// An answer of the top node would have left a record, unless it is the one it
+// had; then it may have been skipped as well. Nobody knows which of several.
+bool LogPlayer::is_answer_known() const {
+  return tops_ == 1 &&
+         (is_completed(outcome_[top_]) || !is_completed(status_[top_]));
+}
+
+// The states of a tick that ends here, if one is under way, of time that
+// passes, and of one that begins; none of that need be so.
+bool LogPlayer::may_part(bool is_in_tick) {
+  const RecordedState before = state_;
+  const auto taken_up = taken_up_;
+  const auto called = called_;
+  const auto outcome = outcome_;
+  const bool is_over = is_over_;
+  is_possible_ = true;
+  is_status_known_ = false;
+  is_root_known_ = is_answer_known();
+  const auto tell = [&] {
+    if (is_in_tick) {
+      return settle() && end_tick() && pass_time() && enter_tick(state_.tick);
+    }
+    const bool is_first = state_.tick == 0;
+    return (is_first || pass_time()) && enter_tick(state_.tick) && end_tick() &&
+           (!is_first || pass_time());
+  };
+  const bool goes_on = tell();
+  const int time = state_.time;
+  state_ = before;
+  state_.time = time;
+  taken_up_ = taken_up;
+  called_ = called;
+  outcome_ = outcome;
+  is_over_ = is_over;
+  is_possible_ = false;
+  is_root_known_ = true;
+  return goes_on;
+}
+
+bool LogPlayer::has_ended() const {
+  return is_over_ || state_.locations[0] == "success" ||
+         state_.locations[0] == "failure";
 }
 
 // Whether the last tick is over is known only where the tree has ended in it.
 bool LogPlayer::play_end(const std::function<bool()>& see) {
   see_ = &see;
-  return is_over_ || !is_completed(answer_of_tick()) || end_tick();
+  return log_.marks || is_over_ || !is_completed(answer_of_tick()) ||
+         end_tick();
 }
 
-bool LogPlayer::end_if_over(const std::function<bool()>& see) {
+bool LogPlayer::end_here(const std::function<bool()>& see) {
   see_ = &see;
-  if (!settle()) return false;
+  return settle() && (is_over_ || end_for_good());
+}
+
+bool LogPlayer::end_for_good() {
+  is_over_ = is_status_known_ = true;
   const LogStatus answer = answer_of_tick();
-  if (is_over_ || !is_completed(answer)) return true;
-  is_over_ = true;
-  if (!let_go_below(0)) return false;
-  state_.statuses[0] = word_of(answer);
-  return reach(0, word_of(answer), phase_of(answer)) &&
-         rest(0, phase_of(answer));
+  has_answered_ = is_completed(answer);
+  is_root_known_ = !has_all_ways_ || is_answer_known();
+  const bool goes_on =
+      end_tick() && (!has_answered_ || rest(0, phase_of(answer)));
+  is_root_known_ = true;
+  return goes_on;
 }
 
 // What has been written down is shown, and the node gets its next location.
@@ -156,7 +314,6 @@ bool LogPlayer::begin_tick(std::int64_t tick) {
   if (tick == state_.tick) return true;
   if (!settle()) return false;
   if (state_.tick > 0 && !is_over_ && !end_tick()) return false;
-  is_over_ = false;
   const std::int64_t passed = state_.tick == 0 ? tick - 1 : tick - state_.tick;
   state_.mover.reset();
   state_.event.clear();
@@ -165,6 +322,11 @@ bool LogPlayer::begin_tick(std::int64_t tick) {
     ++state_.time;
     if (!(*see_)()) return false;
   }
+  return enter_tick(tick);
+}
+
+bool LogPlayer::enter_tick(std::int64_t tick) {
+  is_over_ = false;
   constexpr std::int64_t kGreatest = INT32_MAX;
   state_.tick = static_cast<int>(std::min(tick, kGreatest));
   for (std::size_t n = 0; n < is_leaf_.size(); ++n) {
@@ -177,9 +339,13 @@ bool LogPlayer::begin_tick(std::int64_t tick) {
   return show(0, "");
 }
 
-// The tree answers what its top node has.
+// The tree answers what its top node has. Where that has no record, it is
+// RUNNING, or it was skipped.
 LogStatus LogPlayer::answer_of_tick() const {
   LogStatus answer = LogStatus::Running;
+  if (has_all_ways_ && status_[top_] != LogStatus::Running) {
+    answer = is_completed(status_[top_]) ? status_[top_] : LogStatus::Skipped;
+  }
   for (std::size_t n = 1; n < outcome_.size(); ++n) {
     if (heading_.nodes[n].parent == 0 && is_completed(outcome_[n])) {
       answer = outcome_[n];
@@ -191,12 +357,9 @@ LogStatus LogPlayer::answer_of_tick() const {
 bool LogPlayer::end_tick() {
   if (!let_go_below(0)) return false;
   const LogStatus answer = answer_of_tick();
-  if (is_completed(answer)) {
-    state_.statuses[0] = word_of(answer);
-    return reach(0, word_of(answer), phase_of(answer));
-  }
-  state_.statuses[0] = "running";
-  return reach(0, "running", Phase::Running) && rest(0, Phase::Running);
+  state_.statuses[0] = word_of(answer);
+  return reach(0, word_of(answer), phase_of(answer)) &&
+         (is_completed(answer) || rest(0, phase_of(answer)));
 }
 
 bool LogPlayer::read(const LogTransition& record) {

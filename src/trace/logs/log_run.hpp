@@ -8,6 +8,8 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "trace/logs/behavior_log.hpp"
@@ -21,6 +23,10 @@ struct LogPlace {
   std::int64_t time = 0;  // of that, microseconds since the log began
 };
 
+// "success", and as a viewer colours it.
+const char* word_of(LogStatus answer);
+Phase phase_of(LogStatus answer);
+
 // What may have happened to a node without a record: a node that runs is ticked
 // and answers running again, and none of it is a change of status.
 enum class Unseen : std::uint8_t {
@@ -29,8 +35,13 @@ enum class Unseen : std::uint8_t {
   Halted,    // it may have been halted, or been skipped as all below it were
   Skipped,   // it is ticked, and may have answered skipped
   Repeated,  // it may be ticked, and answer as before; not in logs of btcheck
+  Called,    // its tick may be over, and another may have begun
+  Status,    // it may have had another status before
   Anything   // its records are not told apart from those of others
 };
+
+// Gives a run the entries of a log as its variables, in the place of others.
+void take_entries(RecordedRun& run, const LogMarks& marks);
 
 // Goes through a log. A node whose child has a record is being ticked, also
 // where it sets RUNNING at its answer only, such as a Switch. Node 0 of the run
@@ -44,12 +55,23 @@ enum class Unseen : std::uint8_t {
 // whether that was its answer: SimpleActionNode sets it before it calls its
 // function, and answers in the same tick (src/action_node.cpp of 4.10
 // and 3.8.8). At the end of a log it is not known.
+//
+// Where it is not known between which records ticks end and begin, a log can be
+// told with all ways: between two records come the states of a tick that ends,
+// of time that passes and of a tick that begins, and `is_possible` says that
+// all of them may not have been, or have been several times over. What is
+// certain is told as such: a tree that has answered begins anew with the next
+// record that is no reset.
+enum class TickWays : std::uint8_t {
+  Likely,  // one way: ticks are parted where there is a long pause
+  All      // but where it is known
+};
+
 class LogPlayer {
  public:
-  // The log must outlive it. `tick_time` and `pause`, in microseconds, are for
-  // logs that btcheck has not written: see TickCounter.
-  LogPlayer(const BehaviorLog& log, std::int64_t tick_time,
-            std::int64_t pause = kTickPause);
+  // The log must outlive it.
+  LogPlayer(const BehaviorLog& log, const LogReading& reading,
+            TickWays ways = TickWays::Likely);
 
   // The run without its states.
   const RecordedRun& heading() const { return heading_; }
@@ -61,21 +83,43 @@ class LogPlayer {
   // follow those before. False once see() was.
   bool play_on(std::span<const LogTransition> records,
                const std::function<bool()>& see);
+  // Of a log with marks: all that they have more than when it was last played.
+  bool play_marks(const std::function<bool()>& see);
   // And the end of the last tick, where the tree has ended in it.
   bool play_end(const std::function<bool()>& see);
-  // Ends the tick where the tree has answered in it; for who knows that no
-  // record of that tick follows but those of nodes being reset.
-  bool end_if_over(const std::function<bool()>& see);
+  // The tick is over: no record of it follows but those of nodes being reset.
+  bool end_here(const std::function<bool()>& see);
 
   // While see() is called: the present state, where it stands in the log, and
   // what may have happened unseen in it, by node.
   const RecordedState& state() const { return state_; }
   const LogPlace& place() const { return place_; }
   Unseen unseen(std::size_t node) const;
+  // It and those before it that are so, back to the last one that is not, may
+  // not have been, or may have come several times over.
+  bool is_possible() const { return is_possible_; }
+  // The tree has answered in the last tick, which is over.
+  bool has_ended() const;
 
  private:
+  bool play(const LogMark& mark);
+  bool play_again(const LogMark& again);
+  bool begin_node(std::size_t node);
+  bool hear_answer(std::size_t node, LogStatus status);
+  bool change(const LogTransition& record);
+  void take_as_given(const LogTransition& record);
+  bool end_with(LogStatus status);
+  bool leave_tick(const std::string& why);
   bool begin_tick(std::int64_t tick);
   bool end_tick();
+  bool end_for_good();
+  bool enter_tick(std::int64_t tick);
+  bool pass_time();
+  bool part_before(const LogTransition& record);
+  bool may_part(bool is_in_tick);
+  bool part_at_gap(std::int64_t time);
+  bool part_at_end(const LogTransition& record);
+  bool is_answer_known() const;
   LogStatus answer_of_tick() const;
   bool read(const LogTransition& record);
   bool take_up(std::size_t node, bool is_leaf);
@@ -90,6 +134,8 @@ class LogPlayer {
   std::size_t number_of(std::uint16_t uid) const;
 
   const BehaviorLog& log_;
+  const LogReading reading_;
+  const bool has_all_ways_;
   RecordedRun heading_;
   std::vector<bool> is_leaf_;       // by node
   std::vector<LogStatus> status_;   // by node, as the records say
@@ -105,7 +151,18 @@ class LogPlayer {
   TickCounter ticks_;
   bool has_begun_ = false;  // the first state has been seen
   bool is_over_ = false;    // this tick
-  std::size_t played_ = 0;  // records
+  bool is_possible_ = false;
+  bool is_root_known_ = true;    // where the tree itself is
+  bool is_status_known_ = true;  // of the tree itself
+  bool is_time_open_ = false;    // the time behind a tick may have passed
+  bool has_answered_ = false;    // the tree, in the tick that is over
+  std::int64_t begin_ = 0;       // of the tick
+  std::size_t tops_ = 0;         // nodes without a parent
+  std::size_t top_ = 0;          // the last of them
+  std::size_t played_ = 0;       // records
+  std::size_t mark_ = 0;         // that is played next
+  // What a node has just answered.
+  std::optional<std::pair<std::size_t, LogStatus>> has_said_;
 };
 
 }  // namespace btcheck

@@ -60,11 +60,19 @@ std::string counted(std::size_t count, std::string_view thing) {
 
 class Teller {
  public:
-  explicit Teller(const BehaviorLog& log) : log_(log), is_ours_(is_own(log)) {}
+  Teller(const BehaviorLog& log, const LogReading& reading)
+      : log_(log),
+        is_ours_(is_own(log)),
+        pause_(reading.tick_gap.value_or(kTickPause)) {}
 
   std::string tell() {
     tell_heading();
     tell_tree();
+    if (log_.marks) {
+      each_mark(*log_.marks,
+                [&](const LogMark& mark) { tell_mark(mark, *log_.marks); });
+      return std::move(text_);
+    }
     const LogTransition* before = nullptr;
     for (const LogTransition& change : log_.transitions) {
       if (before == nullptr || is_new_tick(before->time, change.time)) {
@@ -80,7 +88,56 @@ class Teller {
  private:
   bool is_new_tick(std::int64_t before, std::int64_t now) const {
     return is_ours_ ? before / kTickTime != now / kTickTime
-                    : now - before >= kTickPause || now < before;
+                    : now - before >= pause_ || now < before;
+  }
+
+  void tell_mark(const LogMark& mark, const LogMarks& marks) {
+    switch (mark.kind) {
+      case MarkKind::TickBegins:
+      case MarkKind::TickIsWoken:
+        text_ += fmt::format(
+            "\ntick {}, after {} s{}\n", ++tick_, seconds(mark.time),
+            mark.kind == MarkKind::TickIsWoken ? ", woken up" : "");
+        break;
+      case MarkKind::TickEnds:
+        text_ += fmt::format("  [{}]       = {}\n", seconds(mark.time),
+                             status_word(mark.status));
+        break;
+      case MarkKind::TickIsLeft:
+        text_ +=
+            fmt::format("  [{}]       left by an exception: {}\n",
+                        seconds(mark.time), shown(marks.texts[mark.number]));
+        break;
+      case MarkKind::Record:
+        tell_change(log_.transitions[told_++]);
+        break;
+      case MarkKind::WasBefore:
+        text_ += fmt::format("  {} was {}\n",
+                             name_of(*log_.find(log_.transitions[told_].uid)),
+                             status_word(log_.transitions[told_].after));
+        ++told_;
+        break;
+      case MarkKind::Entry:
+        text_ += fmt::format(
+            "  {} := {}\n", shown(marks.entries[mark.number]),
+            shown(marks.texts[static_cast<std::size_t>(mark.time)]));
+        break;
+      case MarkKind::NodeAnswers:
+        if (mark.status == LogStatus::Skipped) {
+          text_ += fmt::format("  {:5} {} is skipped\n", mark.uid,
+                               name_of(*log_.find(mark.uid)));
+        }
+        break;
+      case MarkKind::NodeBegins:
+      case MarkKind::TickAgain:  // has come as the marks of its tick
+      case MarkKind::End:
+      case MarkKind::Lost:
+        break;
+    }
+  }
+
+  static std::string_view status_word(LogStatus status) {
+    return kLogStatusNames[static_cast<std::size_t>(status)];
   }
 
   void tell_heading() {
@@ -119,7 +176,10 @@ class Teller {
 
   const BehaviorLog& log_;
   const bool is_ours_;
+  const std::int64_t pause_;
   std::size_t widest_ = 0;  // name
+  std::size_t told_ = 0;    // records
+  int tick_ = 0;
   std::string text_;
 };
 
@@ -136,7 +196,8 @@ std::int64_t TickCounter::tick_at(std::int64_t time) {
   } else if (tick_ == 0) {
     tick_ = 1;
   } else if (time - last_ >= pause_) {
-    const std::int64_t apart = (time - begin_ + tick_time_ / 2) / tick_time_;
+    const std::int64_t apart =
+        is_counted_ ? (time - begin_ + tick_time_ / 2) / tick_time_ : 1;
     tick_ += std::clamp(apart, std::int64_t{1}, kMostTicks);
   }
   if (tick_ != before) begin_ = time;
@@ -144,6 +205,26 @@ std::int64_t TickCounter::tick_at(std::int64_t time) {
   return tick_;
 }
 
-std::string log_text(const BehaviorLog& log) { return Teller(log).tell(); }
+std::vector<std::int64_t> ticks_of(const BehaviorLog& log,
+                                   const LogReading& reading) {
+  std::vector<std::int64_t> ticks;
+  if (!log.marks) {
+    TickCounter counter(log, reading);
+    for (const LogTransition& record : log.transitions) {
+      ticks.push_back(counter.tick_at(record.time));
+    }
+    return ticks;
+  }
+  std::int64_t tick = 0;
+  each_mark(*log.marks, [&](const LogMark& mark) {
+    if (begins_tick(mark)) ++tick;
+    if (is_record(mark)) ticks.push_back(std::max(tick, std::int64_t{1}));
+  });
+  return ticks;
+}
+
+std::string log_text(const BehaviorLog& log, const LogReading& reading) {
+  return Teller(log, reading).tell();
+}
 
 }  // namespace btcheck

@@ -91,9 +91,9 @@ std::string with_member(std::string_view object, std::string_view name,
 
 Result<std::unique_ptr<Oracle>> Oracle::make(
     const BehaviorTree& tree, const RecordedRun& run,
-    const std::vector<OracleRules>& rules, std::int64_t tick_time) {
+    const std::vector<OracleRules>& rules, const LogReading& reading) {
   Result<std::unique_ptr<Oracle>> result;
-  std::unique_ptr<Oracle> made(new Oracle(tree, run, tick_time));
+  std::unique_ptr<Oracle> made(new Oracle(tree, run, reading));
   for (const OracleRules& each : rules) {
     auto watch =
         RecordedWatch::make(run, Recording::Log, each.file, each.source);
@@ -122,7 +122,7 @@ void Oracle::begin(bool has_uids, std::vector<Diagnostic>& told) {
   auto in_tree = placed(std::move(log_), tree_, run_);
   told = std::move(in_tree.diagnostics);
   log_ = std::move(*in_tree.value);
-  player_ = std::make_unique<LogPlayer>(log_, tick_time_);
+  player_ = std::make_unique<LogPlayer>(log_, reading_, TickWays::All);
 }
 
 // Why the changes are none of this tree; "" where they are taken.
@@ -150,14 +150,16 @@ std::string Oracle::take(const std::vector<Change>& changes,
   changes_ += changes.size();
   const std::function<bool()> see = [&] {
     for (const auto& watch : watches_) {
-      watch->see(player_->state(),
-                 [&](std::size_t n) { return player_->unseen(n); });
+      watch->see(
+          player_->state(), [&](std::size_t n) { return player_->unseen(n); },
+          player_->is_possible());
     }
     return true;
   };
-  // Nav2 sends a message when a tick is over.
+  // Nav2 sends a message when a tick is over; a robot that is woken up may have
+  // ended others before.
   player_->play_on(records, see);
-  player_->end_if_over(see);
+  if (!records.empty()) player_->end_here(see);
   return "";
 }
 

@@ -31,10 +31,10 @@ struct OracleRules {
 class Oracle {
  public:
   // `run` is the tree as recorded_tree makes it. Rules are refused as for a log
-  // (BT1805). All must outlive it. `tick_time`: microseconds.
+  // (BT1805). All must outlive it. A message ends a tick.
   static Result<std::unique_ptr<Oracle>> make(
       const BehaviorTree& tree, const RecordedRun& run,
-      const std::vector<OracleRules>& rules, std::int64_t tick_time);
+      const std::vector<OracleRules>& rules, const LogReading& reading);
 
   // One line, a JSON object. The changes of status of a message of Nav2's
   // /behavior_tree_log stand in its member `event_log`; other messages change
@@ -60,8 +60,8 @@ class Oracle {
   struct Change;
 
   Oracle(const BehaviorTree& tree, const RecordedRun& run,
-         std::int64_t tick_time)
-      : tree_(tree), run_(run), tick_time_(tick_time) {}
+         const LogReading& reading)
+      : tree_(tree), run_(run), reading_(reading) {}
 
   void begin(bool has_uids, std::vector<Diagnostic>& told);
   std::string take(const std::vector<Change>& changes,
@@ -69,7 +69,7 @@ class Oracle {
 
   const BehaviorTree& tree_;
   const RecordedRun& run_;
-  std::int64_t tick_time_;
+  LogReading reading_;
   std::vector<std::unique_ptr<RecordedWatch>> watches_;
   BehaviorLog log_;  // its nodes, and the changes of the message that is read
   std::unique_ptr<LogPlayer> player_;  // from the first change on

@@ -114,7 +114,8 @@ struct RecordedRun : RunWords {
   std::vector<RecordedNode> nodes;  // pre-order; a parent before its children
   std::vector<std::string> variables;  // names
   std::vector<bool> is_number;         // of the variables
-  std::vector<std::string> atoms;      // texts of the property's parts
+  bool has_entries = false;        // the variables are entries of a blackboard
+  std::vector<std::string> atoms;  // texts of the property's parts
   std::vector<RecordedState> states;
   // The state that the last one returns to; else kNoState.
   std::size_t loop = kNoState;

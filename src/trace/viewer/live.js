@@ -32,6 +32,7 @@ class LiveViewer extends Viewer {
     this.makeParts();
     this.panels.push({ show: () => this.tellState() });
     this.jump(this.linkedStep() ?? run.last);
+    if (run.packed.rules) this.judge(run.packed.rules);
     this.listenToRun(run.packed.live);
   }
 
@@ -71,11 +72,14 @@ class LiveViewer extends Viewer {
   listenToRun(chapter) {
     this.stream = listenTo(chapter, this, () => this.beginAnew(),
                            (words) => this.conclude(words));
-    this.stream.onmessage = ({ data }) => {
-      this.waiting.push(JSON.parse(data));
+    const waitWith = (more) => {
+      this.waiting.push(more);
       this.timeout ??= setTimeout(() => this.take(),
                                   Math.max(LEAST_REST, 2 * this.cost));
     };
+    this.stream.onmessage = ({ data }) => waitWith(JSON.parse(data));
+    this.stream.addEventListener("verdict", ({ data }) =>
+      waitWith({ rules: JSON.parse(data) }));
   }
 
   // What has come since the last look.
@@ -84,7 +88,10 @@ class LiveViewer extends Viewer {
     const wasFollowing = this.isFollowing;
     clearTimeout(this.timeout);
     this.timeout = undefined;
-    for (const more of this.waiting.splice(0)) this.append(more);
+    for (const more of this.waiting.splice(0)) {
+      if (more.rules) this.judge(more.rules);
+      else this.append(more);
+    }
     this.events.grow();
     if (this.trial.field.value) this.trial.judge();
     else this.timeline.renew();
@@ -97,6 +104,38 @@ class LiveViewer extends Viewer {
     for (const text of texts) packed.texts.push(text);
     for (const change of changes) packed.changes.push(change);
     this.run.unpack(states);
+  }
+
+  // The rules that are asked of the run, each with its verdict so far; who
+  // clicks one goes to the moment of it.
+  judge(rules) {
+    let list = document.getElementById("rules");
+    if (!list) {
+      list = element("ul", { id: "rules", "aria-label": "rules" });
+      byId("now").after(list);
+    }
+    list.replaceChildren(...rules.map((rule) => {
+      const isLost = rule.verdict === "VIOLATED" && !rule.expected;
+      const sign = { OPEN: "running", VIOLATED: "failure",
+                     SATISFIED: "success" }[rule.verdict] ?? "skipped";
+      const button = element("button", { type: "button", title: rule.text });
+      button.append(
+        element("b", { class: isLost ? "bad" : rule.verdict.toLowerCase() },
+                glyph(sign), rule.verdict),
+        ` ${rule.name}`,
+        element("small", {}, rule.moment,
+                rule.expected ? " (expected violated)" : ""));
+      button.disabled = rule.step === undefined;
+      button.addEventListener("click", () => this.jump(rule.step));
+      return element("li", {}, button);
+    }));
+    const lost = rules.filter((rule) =>
+      rule.verdict === "VIOLATED" && !rule.expected).length;
+    if (lost > (this.lost ?? 0)) {
+      byId("spoken").textContent =
+        `${lost} of ${rules.length} rules violated`;
+    }
+    this.lost = lost;
   }
 
   showAgain(step) {

@@ -1,170 +1,173 @@
 // SPDX-License-Identifier: MIT
 #include "trace/watch/entry_regions.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
-#include <string>
 #include <utility>
 
-#include "ltl/rules/compared.hpp"
-#include "text/diagnostic.hpp"
 #include "text/numbers.hpp"
 #include "text/utf8.hpp"
+#include "text/words.hpp"
 
 namespace btcheck {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr std::array<std::string_view, 3> kNotThere = {"unset", "no_value",
-                                                       "unknown"};
+constexpr double kEndOfNumbers = std::numeric_limits<double>::infinity();
+constexpr std::string_view kMinus = "minus_";
+constexpr std::string_view kOfText = "text_";
 
-// `go home` as rules call it: go_home.
-std::string word_of_text(std::string_view text) {
-  std::string word;
-  for (const char c : text) {
-    const bool is_kept =
-        is_letter(c) || is_digit(c) || static_cast<unsigned char>(c) >= 0x80;
-    word += is_kept ? c : '_';
+std::optional<double> real_in(std::string_view text) {
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return number;
+}
+
+// -0.5 for `minus_0_5`.
+std::optional<double> number_said(std::string_view word) {
+  if (!word.starts_with(kMinus)) return std::nullopt;
+  std::string text(word.substr(kMinus.size()));
+  if (text.empty() || !is_digit(text.front())) return std::nullopt;
+  if (const auto point = text.find('_'); point != std::string::npos) {
+    text[point] = '.';
   }
-  return word.empty() ? "empty" : word;
+  const auto number = real_in(text);
+  return number ? std::optional(-*number) : std::nullopt;
 }
 
-std::string word_of_number(double number) {
-  std::string word = word_of_text(fmt::format("{}", std::abs(number)));
-  return number < 0 ? "minus_" + word : word;
-}
-
-// "minus_0_5" → -0.5; nothing for what is no number.
-std::optional<double> number_of_word(std::string word) {
-  const bool is_below = word.starts_with("minus_");
-  if (is_below) word.erase(0, 6);
-  if (word.empty() || !is_digit(word[0])) return std::nullopt;
-  std::ranges::replace(word, '_', '.');
-  const auto number = as_number<double>(word);
-  return number && is_below ? std::optional(-*number) : number;
-}
-
-struct Compared {
-  std::set<double> numbers;
-  std::set<std::string> texts;
-
-  void add(const Operand& other) {
-    if (other.name.empty() || !other.node.empty()) return;
-    const bool is_truth = equal_ignoring_case(other.name, "true") ||
-                          equal_ignoring_case(other.name, "false");
-    if (is_truth ||
-        std::ranges::find(kNotThere, other.name) != kNotThere.end()) {
-      return;
-    }
-    if (const auto number = number_of_word(other.name)) {
-      numbers.insert(*number);
-    } else {
-      texts.insert(other.name);
-    }
-  }
-};
-
-bool is_name(const Operand& operand, std::string_view name) {
-  return operand.node.empty() && !operand.is_number &&
-         operand.calculation == Arithmetic::None &&
-         equal_ignoring_case(operand.name, name);
-}
-
-Compared compared_with(const PropertyFile& rules, std::string_view name) {
-  Compared compared;
-  ComparedNumbers numbers;
-  ComparedNames names;
-  add_compared(rules, numbers, names);
-  compared.numbers = numbers[lowered(name)];
+// The words and numbers that rules compare names with.
+std::set<std::string> words_in(const PropertyFile& rules,
+                               std::vector<double>& numbers) {
+  std::set<std::string> words;
   for (const Atom& atom : rules.atoms) {
-    if (atom.kind != AtomKind::Comparison) continue;
-    if (is_name(atom.left, name)) compared.add(atom.right);
-    if (is_name(atom.right, name)) compared.add(atom.left);
+    if (atom.kind == AtomKind::Range) {
+      numbers.push_back(atom.low.nearest());
+      numbers.push_back(atom.high.nearest());
+    }
+    visit_leaves(atom, [&](const Operand& side) {
+      if (side.is_number) {
+        numbers.push_back(side.number.nearest());
+      } else if (side.node.empty() && !side.name.empty()) {
+        words.insert(side.name);
+      }
+    });
   }
-  return compared;
-}
-
-void add_state(StateVariable& variable, std::string name, EntryValue value) {
-  variable.states.push_back(std::move(name));
-  variable.values.push_back(std::move(value));
-}
-
-void add_numbers(StateVariable& variable, double least, double greatest,
-                 std::string name) {
-  if (least > greatest) return;  // no double lies between
-  add_state(variable, std::move(name),
-            {NumberRange{least, greatest}, std::nullopt, false});
+  return words;
 }
 
 }  // namespace
 
-bool names_entry(const PropertyFile& rules, std::string_view name) {
-  return std::ranges::any_of(rules.atoms, [&](const Atom& atom) {
-    bool is_named = false;
-    visit_leaves(atom,
-                 [&](const Operand& side) { is_named |= is_name(side, name); });
-    return is_named;
+EntryRegions::EntryRegions(const PropertyFile& rules) {
+  const std::set<std::string> words = words_in(rules, numbers_);
+  for (const std::string& word : words) {
+    if (equal_ignoring_case(word, "true")) numbers_.push_back(1);
+    if (equal_ignoring_case(word, "false")) numbers_.push_back(0);
+    if (const auto number = number_said(word)) numbers_.push_back(*number);
+  }
+  std::ranges::sort(numbers_);
+  numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
+  add("unset", {});
+  add("no_value", {});
+  add("of_another_type", {});
+  double least = -kEndOfNumbers;
+  std::string name = "any_number";
+  for (const double number : numbers_) {
+    const std::string word = number_word(number);
+    add(least == -kEndOfNumbers ? "below_" + word : name,
+        {NumberRange{least, std::nextafter(number, -kEndOfNumbers)},
+         std::nullopt, false});
+    add(word, {NumberRange{number, number}, std::nullopt, false});
+    least = std::nextafter(number, kEndOfNumbers);
+    name = "above_" + word;
+  }
+  add(name, {NumberRange{least, kEndOfNumbers}, std::nullopt, false});
+  for (const std::string& word : words) add_word(word);
+  add("another_text", {std::nullopt, std::string(kOtherText), false});
+}
+
+void EntryRegions::add(std::string name, EntryValue value) {
+  states_.push_back(std::move(name));
+  values_.push_back(std::move(value));
+}
+
+void EntryRegions::add_word(const std::string& word) {
+  const bool is_known = std::ranges::any_of(states_, [&](const auto& state) {
+    return equal_ignoring_case(state, word);
   });
+  if (is_known || equal_ignoring_case(word, "true") ||
+      equal_ignoring_case(word, "false")) {
+    return;
+  }
+  add(word, {std::nullopt, word, false});
 }
 
-StateVariable entry_regions(const PropertyFile& rules,
-                            const std::string& name) {
-  const Compared compared = compared_with(rules, name);
-  StateVariable variable;
-  variable.name = name;
-  for (const std::string_view word : kNotThere) {
-    add_state(variable, std::string(word), {});
-  }
-  double least = -kInfinite;
-  for (const double number : compared.numbers) {
-    add_numbers(variable, least, std::nextafter(number, -kInfinite),
-                "below_" + word_of_number(number));
-    add_numbers(variable, number, number, word_of_number(number));
-    least = std::nextafter(number, kInfinite);
-  }
-  add_numbers(variable, least, kInfinite,
-              compared.numbers.empty()
-                  ? "any_number"
-                  : "above_" + word_of_number(*compared.numbers.rbegin()));
-  for (const std::string& text : compared.texts) {
-    add_state(variable, text, {std::nullopt, text, false});
-  }
-  add_state(variable, "other_text",
-            {std::nullopt, std::string(kOtherText), false});
-  add_state(variable, "other", {});
-  variable.max = static_cast<int>(variable.states.size()) - 1;
-  return variable;
+StateVariable EntryRegions::variable(std::string name) const {
+  StateVariable made;
+  made.name = std::move(name);
+  made.states = states_;
+  made.values = values_;
+  made.max = static_cast<int>(states_.size()) - 1;
+  return made;
 }
 
-int region_of(const StateVariable& entry, std::string_view shown) {
-  const auto state_where = [&](const auto& fits) {
-    for (std::size_t i = 0; i < entry.states.size(); ++i) {
-      if (fits(entry.values[i])) return static_cast<int>(i);
+int EntryRegions::region_of(std::string_view value) const {
+  const int last = static_cast<int>(states_.size()) - 1;
+  const auto named = [&](std::string_view name) -> std::optional<int> {
+    for (int i = 0; i <= last; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      if (equal_ignoring_case(states_[at], name)) return i;
     }
-    return entry.max;
+    return std::nullopt;
   };
-  if (shown.size() >= 2 && shown.front() == '\'') {
-    const std::string word = word_of_text(shown.substr(1, shown.size() - 2));
-    return state_where([&](const EntryValue& value) {
-      return value.text && (*value.text == word || *value.text == kOtherText);
-    });
+  const auto text_named = [&](std::string_view name) -> std::optional<int> {
+    const auto found = named(name);
+    const bool is_text =
+        found && values_[static_cast<std::size_t>(*found)].text.has_value();
+    return is_text ? found : std::nullopt;
+  };
+  if (value.starts_with('\'')) {
+    const std::string_view text = value.substr(1, value.size() - 2);
+    const std::string word = text.empty() ? "empty" : as_word(text);
+    if (const auto found = text_named(word)) return *found;
+    return text_named(std::string(kOfText) + word).value_or(last);
   }
-  if (const auto number = as_number<double>(shown)) {
-    return state_where([&](const EntryValue& value) {
-      return value.numbers && *number >= value.numbers->least &&
-             *number <= value.numbers->greatest;
-    });
+  const auto number = real_in(value);
+  constexpr int kOfAnotherType = 2;
+  if (!number) return named(value).value_or(kOfAnotherType);
+  if (std::isnan(*number)) return kOfAnotherType;
+  const auto place = std::ranges::lower_bound(numbers_, *number);
+  const auto before = static_cast<int>(place - numbers_.begin());
+  constexpr int kFirst = 3;  // of the states that are numbers
+  const bool is_that = place != numbers_.end() && *place == *number;
+  return kFirst + 2 * before + (is_that ? 1 : 0);
+}
+
+std::vector<std::string> entry_names(const std::vector<std::string>& entries) {
+  const auto own = [](const std::string& entry) {
+    const std::string name = as_word(entry.substr(entry.rfind('/') + 1));
+    return name.empty() ? std::string("_") : name;
+  };
+  std::map<std::string, int> uses;
+  for (const std::string& entry : entries) ++uses[own(entry)];
+  std::vector<std::string> names(entries.size());
+  std::set<std::string> taken;
+  // Those of the tree itself first.
+  for (const bool is_inner : {false, true}) {
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      const bool has_path = entries[i].find('/') != std::string::npos;
+      if (has_path != is_inner) continue;
+      const std::string name = own(entries[i]);
+      names[i] = unused_name(
+          taken, is_inner && uses[name] > 1 ? as_word(entries[i]) : name);
+    }
   }
-  const auto known = std::ranges::find(entry.states, shown);
-  return known == entry.states.end()
-             ? entry.max
-             : static_cast<int>(known - entry.states.begin());
+  return names;
 }
 
 }  // namespace btcheck

@@ -1,31 +1,42 @@
 // SPDX-License-Identifier: MIT
 //
-// Blackboard entries of a program that runs: their values, as far as the rules
-// of a file tell them apart.
+// Values of a blackboard's entries as rules tell them apart: what they are
+// compared with, and what lies between.
 #pragma once
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "ltl/rules/property.hpp"
 #include "model/tree/tree.hpp"
+#include "trace/run/recorded_run.hpp"
 
 namespace btcheck {
 
-// Whether a rule of the file has a name that this entry has.
-bool names_entry(const PropertyFile& rules, std::string_view name);
+// Of a region: no text that is compared with has a control character in it.
+inline constexpr std::string_view kOtherText = "\1";
 
-// An enumeration: `unset`, `no_value`, `unknown` (that nothing running ever
-// is), the numbers and what lies between them, the texts, any other text, and
-// last what is neither (docs/btcpp.md, "Blackboard entries"). A number that is
-// compared with is a state of its own.
-StateVariable entry_regions(const PropertyFile& rules, const std::string& name);
+class EntryRegions {
+ public:
+  explicit EntryRegions(const PropertyFile& rules);
 
-// The state of a value as a recording shows it: `3`, `-0.5`, `'go home'`,
-// `unset`, `no_value`, `other`.
-int region_of(const StateVariable& entry, std::string_view shown);
+  // An entry of that name: each of its states is one region.
+  StateVariable variable(std::string name) const;
+  // The region of a value as LogMarks has it.
+  int region_of(std::string_view value) const;
 
-// The text of any other text: no entry of a rule has it.
-inline constexpr std::string_view kOtherText = "\x01";
+ private:
+  void add(std::string name, EntryValue value);
+  void add_word(const std::string& word);
+
+  std::vector<double> numbers_;  // ascending
+  std::vector<std::string> states_;
+  std::vector<EntryValue> values_;
+};
+
+// The names by which rules know entries: their own, where no other has it, else
+// with the path of the subtree before it.
+std::vector<std::string> entry_names(const std::vector<std::string>& entries);
 
 }  // namespace btcheck

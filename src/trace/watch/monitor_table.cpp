@@ -151,10 +151,8 @@ class TableWriter {
     }
     if (value.text == kOtherText) return " any_text";
     if (value.text) return " text " + table_text(*value.text);
-    if (state + 1 == entry.states.size()) return " rest";
     const std::string& name = entry.states[state];
-    // Nothing that runs is unknown: no number is as that one.
-    return name == "unknown" ? " numbers 1 0" : " " + name;
+    return name == "unset" || name == "no_value" ? " " + name : " other";
   }
 
   // The place of a network's variable among those that are kept up to date.
@@ -246,6 +244,20 @@ class TableWriter {
 
 }  // namespace
 
+namespace {
+
+bool names_entry(const PropertyFile& rules, std::string_view name) {
+  return std::ranges::any_of(rules.atoms, [&](const Atom& atom) {
+    bool is_named = false;
+    visit_leaves(atom, [&](const Operand& side) {
+      is_named |= side.node.empty() && equal_ignoring_case(side.name, name);
+    });
+    return is_named;
+  });
+}
+
+}  // namespace
+
 Result<std::string> monitor_table(const BehaviorTree& tree, RecordedRun nodes,
                                   const PropertyFile& rules,
                                   const SourceText& source) {
@@ -255,7 +267,8 @@ Result<std::string> monitor_table(const BehaviorTree& tree, RecordedRun nodes,
     if (names_entry(rules, home.name)) nodes.variables.push_back(home.name);
   }
   nodes.is_number.assign(nodes.variables.size(), false);
-  auto watch = RecordedWatch::make(nodes, Recording::Log, rules, source);
+  nodes.has_entries = true;
+  auto watch = RecordedWatch::make(nodes, Recording::MarkedLog, rules, source);
   Result<std::string> result{std::nullopt, std::move(watch.diagnostics)};
   if (watch.value) {
     result.value = TableWriter(tree, nodes, **watch.value).write();

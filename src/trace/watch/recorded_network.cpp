@@ -8,7 +8,6 @@
 #include "model/tree/node_types.hpp"
 #include "text/diagnostic.hpp"
 #include "text/numbers.hpp"
-#include "trace/watch/entry_regions.hpp"
 
 namespace btcheck {
 namespace {
@@ -68,7 +67,8 @@ int RecordedNetwork::location_number(std::string_view name) {
 }
 
 RecordedNetwork::RecordedNetwork(const RecordedRun& run,
-                                 const PropertyFile& rules) {
+                                 const PropertyFile& rules)
+    : regions_(rules), has_entries_(run.has_entries) {
   const bool is_of_engine =
       !run.states.empty() && std::ranges::any_of(run.states.front().statuses,
                                                  [](const std::string& status) {
@@ -79,8 +79,10 @@ RecordedNetwork::RecordedNetwork(const RecordedRun& run,
   tree_.profile = is_log || is_of_engine ? Profile::Btcpp4 : Profile::Paper;
   network_.profile = tree_.profile;
   network_.ticks = tick_semantics(run.ticks).value_or(TickSemantics::Root);
+  const auto names = has_entries_ ? entry_names(run.variables) : run.variables;
   for (std::size_t v = 0; v < run.variables.size(); ++v) {
-    add_variable(run, v, rules);
+    add_variable(has_entries_ ? regions_.variable(names[v])
+                              : variable_of(run, v, rules));
   }
   for (std::uint32_t n = 0; n < run.nodes.size(); ++n) {
     add_node(run.nodes[n], n);
@@ -104,13 +106,12 @@ VariableId RecordedNetwork::add(VariableRole role, std::string name,
   return VariableId{static_cast<std::uint32_t>(network_.variables.size() - 1)};
 }
 
-void RecordedNetwork::add_variable(const RecordedRun& run, std::size_t number,
-                                   const PropertyFile& rules) {
+StateVariable RecordedNetwork::variable_of(const RecordedRun& run,
+                                           std::size_t number,
+                                           const PropertyFile& rules) {
   StateVariable variable;
   variable.name = run.variables[number];
-  if (run.states.empty()) {  // an entry of a program that runs
-    variable = entry_regions(rules, variable.name);
-  } else if (run.is_number[number]) {
+  if (run.is_number[number]) {
     variable.min = -kGreatest;
     variable.max = kGreatest;
   } else {
@@ -122,6 +123,10 @@ void RecordedNetwork::add_variable(const RecordedRun& run, std::size_t number,
     }
     variable.max = static_cast<int>(variable.states.size()) - 1;
   }
+  return variable;
+}
+
+void RecordedNetwork::add_variable(StateVariable variable) {
   const AutomatonId automaton{
       static_cast<std::uint32_t>(network_.automata.size())};
   const bool moves = variable.is_enumeration();
@@ -192,7 +197,6 @@ VariableId RecordedNetwork::location(std::size_t node) const {
 int RecordedNetwork::value_of(std::size_t variable,
                               const std::string& word) const {
   const StateVariable& of = tree_.variables[variable];
-  if (!of.values.empty()) return region_of(of, word);
   if (!of.is_enumeration()) return as_number<int>(word).value_or(0);
   const auto place = std::ranges::find_if(of.states, [&](const auto& state) {
     return equal_ignoring_case(state, word);
@@ -215,7 +219,9 @@ void RecordedNetwork::read(const RecordedState& state,
     }
   }
   for (std::size_t v = 0; v < tree_.variables.size(); ++v) {
-    values[index(network_.state_variable[v])] = value_of(v, state.values[v]);
+    values[index(network_.state_variable[v])] =
+        has_entries_ ? regions_.region_of(state.values[v])
+                     : value_of(v, state.values[v]);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "model/automata/network.hpp"
 #include "model/tree/tree.hpp"
 #include "trace/run/recorded_run.hpp"
+#include "trace/watch/entry_regions.hpp"
 
 namespace btcheck {
 
@@ -25,8 +26,7 @@ namespace btcheck {
 class RecordedNetwork {
  public:
   // Of the states only the values are looked at. A value that a rule names and
-  // the run never has is one of the variable's all the same. The variables of a
-  // run without states are entries of a program that runs.
+  // the run never has is one of the variable's all the same.
   RecordedNetwork(const RecordedRun& run, const PropertyFile& rules);
 
   const BehaviorTree& tree() const { return tree_; }
@@ -44,8 +44,9 @@ class RecordedNetwork {
  private:
   void add_node(const RecordedNode& node, std::uint32_t number);
   void add_automaton(std::uint32_t number);
-  void add_variable(const RecordedRun& run, std::size_t number,
-                    const PropertyFile& rules);
+  static StateVariable variable_of(const RecordedRun& run, std::size_t number,
+                                   const PropertyFile& rules);
+  void add_variable(StateVariable variable);
   VariableId add(VariableRole role, std::string name,
                  std::vector<std::string> values,
                  std::optional<AutomatonId> owner);
@@ -53,6 +54,8 @@ class RecordedNetwork {
 
   BehaviorTree tree_;
   Network network_;
+  EntryRegions regions_;
+  bool has_entries_ = false;
 };
 
 }  // namespace btcheck

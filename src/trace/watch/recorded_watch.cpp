@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "check/bind/bind.hpp"
@@ -23,13 +24,14 @@ constexpr std::size_t kMostWays = 4096;
 // What a recording cannot say: each cause once, with all that asks for it.
 class Unshown {
  public:
-  // `entries`: the variables of a log.
-  Unshown(Recording recording, const PropertyFile& rules,
-          const SourceText& source, const std::vector<std::string>& entries)
-      : is_log_(recording == Recording::Log),
+  Unshown(const RecordedRun& run, Recording recording,
+          const PropertyFile& rules, const SourceText& source)
+      : is_log_(recording != Recording::Run),
+        is_marked_(recording == Recording::MarkedLog),
         rules_(rules),
-        source_(source),
-        entries_(entries) {}
+        source_(source) {
+    if (is_marked_) entries_ = entry_names(run.variables);
+  }
 
   std::vector<Diagnostic> find() {
     for (const Atom& atom : rules_.atoms) look_at(atom);
@@ -53,12 +55,7 @@ class Unshown {
              "it ends, and says not why: write `root.ended`");
     }
     if (!is_log_) return;
-    if (is_entry(atom.left) && is_entry(atom.right)) {
-      refuse(atom.span,
-             "of two entries that are compared it is not known while a robot "
-             "runs: ",
-             atom.text, "compare each with a number or a word");
-    }
+    look_at_entries(atom);
     bool asks_skipped =
         atom.kind == AtomKind::NodeEvent && atom.word == "skipped";
     visit_leaves(atom, [&](const Operand& side) {
@@ -72,10 +69,27 @@ class Unshown {
              "it has statuses: write `.status`, `.answer`, `.active` or an "
              "event");
     });
-    if (asks_skipped) {
+    if (asks_skipped && !is_marked_) {
       refuse(atom.span, "a log does not show ", atom.text,
              "the engine logs nothing of a node that is skipped");
     }
+  }
+
+  // What two of them have in common is not told by what each is compared with.
+  void look_at_entries(const Atom& atom) {
+    std::vector<std::string> asked;
+    visit_leaves(atom, [&](const Operand& side) {
+      const bool is_entry =
+          side.node.empty() &&
+          std::ranges::any_of(entries_, [&](const std::string& entry) {
+            return equal_ignoring_case(entry, side.name);
+          });
+      if (is_entry) asked.push_back(side.name);
+    });
+    if (asked.size() < 2) return;
+    refuse(atom.span,
+           "entries of a log are not compared with each other: ", atom.text,
+           "compare each with a number or a word");
   }
 
   void look_at(const Property& rule) {
@@ -90,13 +104,6 @@ class Unshown {
              "a log does not show single steps, which are asked for by ",
              rule.name, "write it without `X`");
     }
-  }
-
-  bool is_entry(const Operand& side) const {
-    return side.node.empty() &&
-           std::ranges::any_of(entries_, [&](const std::string& entry) {
-             return equal_ignoring_case(entry, side.name);
-           });
   }
 
   struct Cause {
@@ -131,9 +138,10 @@ class Unshown {
   }
 
   bool is_log_;
+  bool is_marked_;
+  std::vector<std::string> entries_;
   const PropertyFile& rules_;
   const SourceText& source_;
-  const std::vector<std::string>& entries_;
   std::vector<Cause> causes_;
 };
 
@@ -167,7 +175,7 @@ Result<std::unique_ptr<RecordedWatch>> RecordedWatch::make(
     const RecordedRun& run, Recording recording, const PropertyFile& rules,
     const SourceText& source) {
   Result<std::unique_ptr<RecordedWatch>> result{
-      std::nullopt, Unshown(recording, rules, source, run.variables).find()};
+      std::nullopt, Unshown(run, recording, rules, source).find()};
   std::vector<Diagnostic>& findings = result.diagnostics;
   const std::string ticks = run.ticks.empty() ? "root" : run.ticks;
   if (rules.ticks && *rules.ticks != ticks) {
@@ -179,7 +187,7 @@ Result<std::unique_ptr<RecordedWatch>> RecordedWatch::make(
   }
   const auto roots = std::ranges::count_if(
       run.nodes, [](const auto& node) { return !node.parent; });
-  if (recording == Recording::Log && roots > 1) {
+  if (recording != Recording::Run && roots > 1) {
     findings.push_back(source.diagnostic(Severity::Error, "BT1805", {},
                                          "a log has one tree, not several"));
   }
@@ -211,6 +219,7 @@ void RecordedWatch::bind_memory(const SourceText& source) {
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     root_of_.push_back(index(root_of(tree, NodeId{n})));
   }
+  answers_.resize(tree.nodes.size(), 1U << kNoAnswer);
   others_.resize(network.variables.size());
   has_ended_tick_.resize(nodes_, false);
   std::vector<Diagnostic> known_already;
@@ -238,36 +247,34 @@ void RecordedWatch::bind_memory(const SourceText& source) {
 void RecordedWatch::may_be(VariableId variable, int value) {
   std::vector<int>& others = others_[index(variable)];
   if (others.empty()) open_.push_back(variable);
-  others.push_back(value);
+  if (std::ranges::find(others, value) == others.end()) others.push_back(value);
 }
 
 void RecordedWatch::begin(const RecordedState& state) {
-  for (const VariableId variable : open_) others_[index(variable)].clear();
-  open_.clear();
+  moment_.others.clear();
+  moment_.answers.clear();
+  moment_.ended.clear();
   network_.read(state, valuation_);
+  moment_.values = valuation_.variables;
+  moment_.has_passed = state.time > time_;
+  time_ = state.time;
   note_answers(state);
 }
 
-// What was answered in this tick. It is forgotten with the step that follows
+// What is answered in this state. It is forgotten with the step that follows
 // the root's own answer.
 void RecordedWatch::note_answers(const RecordedState& state) {
-  const Network& network = network_.network();
   const bool is_first = locations_.empty();
-  for (std::size_t n = 0; n < nodes_; ++n) {
-    const auto answer =
-        answer_of(network, NodeId{static_cast<std::uint32_t>(n)});
-    if (!answer) continue;
-    int& value = valuation_.variables[index(*answer)];
-    if (has_ended_tick_[root_of_[n]]) value = kNoAnswer;
-    const bool is_new = is_first || locations_[n] != state.locations[n];
-    const int code = answer_code(state.locations[n]);
-    if (is_new && code != kNoAnswer) value = code;
-  }
   for (const NodeId root : network_.tree().roots) {
-    const std::size_t n = index(root);
-    const bool is_new = is_first || locations_[n] != state.locations[n];
-    has_ended_tick_[n] = is_new && answer_code(state.locations[n]) != kNoAnswer;
+    if (has_ended_tick_[index(root)]) moment_.ended.push_back(index(root));
   }
+  for (std::size_t n = 0; n < nodes_; ++n) {
+    const bool is_new = is_first || locations_[n] != state.locations[n];
+    const int code = is_new ? answer_code(state.locations[n]) : kNoAnswer;
+    if (code != kNoAnswer) moment_.answers.emplace_back(n, code);
+    has_ended_tick_[n] = code != kNoAnswer && root_of_[n] == n;
+  }
+  moment_.ends_tick = has_ended_tick_[index(network_.tree().roots[0])];
   locations_ = state.locations;
 }
 
@@ -275,21 +282,37 @@ void RecordedWatch::note_unseen(std::size_t node, Unseen unseen,
                                 const RecordedState& state) {
   if (unseen == Unseen::Nothing) return;
   if (unseen == Unseen::Anything) return note_anything(node);
-  const VariableId location = network_.location(node);
+  const Network& network = network_.network();
+  const NodeId id{static_cast<std::uint32_t>(node)};
+  const auto any_of = [&](VariableId variable) {
+    const Variable& known = network.variable(variable);
+    for (int value = known.min; value <= known.max; ++value) {
+      moment_.others.emplace_back(variable, value);
+    }
+  };
+  if (unseen == Unseen::Status) return any_of(network.node_status[node]);
   const auto also = [&](std::string_view name) {
-    may_be(location, RecordedNetwork::location_number(name));
+    moment_.others.emplace_back(network_.location(node),
+                                RecordedNetwork::location_number(name));
   };
   if (unseen == Unseen::Halted) return also("halted");
-  const std::string answered = unseen == Unseen::Running ? "running"
-                               : unseen == Unseen::Skipped
-                                   ? "skipped"
-                                   : state.statuses[node];
-  if (unseen != Unseen::Skipped) also("tick_node");
-  also(answered);
+  const auto answers = [&](std::string_view answered) {
+    also(answered);
+    const auto answer = answer_of(network, id);
+    if (answer) moment_.others.emplace_back(*answer, answer_code(answered));
+  };
+  const std::string& before = state.statuses[node];
+  const bool may_answer = unseen != Unseen::Skipped &&
+                          (unseen != Unseen::Called || before != "idle");
+  const bool may_skip = unseen == Unseen::Skipped ||
+                        (unseen == Unseen::Called && before != "running");
+  if (unseen != Unseen::Skipped) {
+    also("tick_node");
+    if (const auto caller = network.node_caller[node]) any_of(*caller);
+  }
+  if (may_answer) answers(before);
+  if (may_skip) answers("skipped");
   also("done");
-  const auto answer =
-      answer_of(network_.network(), NodeId{static_cast<std::uint32_t>(node)});
-  if (answer) may_be(*answer, answer_code(answered));
 }
 
 void RecordedWatch::note_anything(std::size_t node) {
@@ -304,7 +327,7 @@ void RecordedWatch::note_anything(std::size_t node) {
   for (const VariableId variable : variables) {
     const Variable& known = network.variable(variable);
     for (int value = known.min; value <= known.max; ++value) {
-      may_be(variable, value);
+      moment_.others.emplace_back(variable, value);
     }
   }
 }
@@ -347,7 +370,9 @@ Truth RecordedWatch::truth(const Expression& expression) const {
   return truth_of(some_hold, some_fail);
 }
 
-void RecordedWatch::note_past(bool is_tick_end) {
+// What is remembered where something may not have been: what it was, or what
+// it has become.
+bool RecordedWatch::note_past(bool is_tick_end, bool is_possible) {
   const auto either = [](Truth one, Truth other) {
     if (one == Truth::Yes || other == Truth::Yes) return Truth::Yes;
     return one == Truth::No && other == Truth::No ? Truth::No : Truth::Unknown;
@@ -357,43 +382,107 @@ void RecordedWatch::note_past(bool is_tick_end) {
     return one == Truth::Yes && other == Truth::Yes ? Truth::Yes
                                                     : Truth::Unknown;
   };
+  bool has_changed = false;
   for (Past& past : past_) {
-    const auto show = [&](Truth now) {
-      valuation_.variables[index(past.bit)] = now == Truth::Yes ? 1 : 0;
-      if (now == Truth::Unknown) may_be(past.bit, 1);
-    };
+    Truth now = past.now;
     if (past.kind == AtomKind::Once) {
-      past.now = either(truth(past.held), past.now);
+      now = either(truth(past.held), now);
     } else if (past.kind == AtomKind::Since) {
-      past.now = either(truth(past.began), both_of(truth(past.held), past.now));
+      now = either(truth(past.began), both_of(truth(past.held), now));
     }
-    show(past.now);
+    valuation_.variables[index(past.bit)] = now == Truth::Yes ? 1 : 0;
+    if (now == Truth::Unknown) may_be(past.bit, 1);
     // What holds where this tick ends is told from the next state on.
     if (past.kind == AtomKind::Previously && is_tick_end) {
-      past.now = truth(past.held);
+      now = truth(past.held);
     }
+    if (is_possible && now != past.now) now = Truth::Unknown;
+    has_changed |= now != past.now;
+    past.now = now;
   }
+  return has_changed;
 }
 
-void RecordedWatch::finish(const RecordedState& state) {
-  note_past(has_ended_tick_[index(network_.tree().roots[0])]);
-  const bool has_passed = state.time > time_;
-  time_ = state.time;
-  for (std::size_t i = 0; i < seen_.size(); ++i) {
-    Seen& seen = seen_[i];
-    if (seen.run.outlook() != Outlook::Open) continue;
-    const RuleMonitor& rule = monitors_[i];
-    PropositionSet label = has_passed ? rule.elapsed : 0;
-    PropositionSet unknown = 0;
-    for (std::size_t p = 0; p < rule.propositions.size(); ++p) {
-      const Truth now = truth(rule.propositions[p].expression);
-      if (now == Truth::Yes) label |= PropositionSet{1} << p;
-      if (now == Truth::Unknown) unknown |= PropositionSet{1} << p;
+bool RecordedWatch::take_answers(const Moment& moment, bool is_possible) {
+  const std::vector<unsigned> before =
+      is_possible ? answers_ : std::vector<unsigned>{};
+  const auto set = [&](std::size_t node, int code) {
+    if (!is_possible) answers_[node] = 0;
+    answers_[node] |= 1U << code;
+  };
+  for (const std::size_t root : moment.ended) {
+    for (std::size_t n = 0; n < nodes_; ++n) {
+      if (root_of_[n] == root) set(n, kNoAnswer);
     }
-    seen.has_unknown |= unknown != 0;
+  }
+  for (const auto& [node, code] : moment.answers) set(node, code);
+  for (std::uint32_t n = 0; n < nodes_; ++n) {
+    const auto answer = answer_of(network_.network(), NodeId{n});
+    if (!answer) continue;
+    // Whose state this is has what it answers there.
+    unsigned codes = answers_[n];
+    for (const auto& [node, code] : moment.answers) {
+      if (node == n) codes = 1U << code;
+    }
+    const int first = std::countr_zero(codes);
+    valuation_.variables[index(*answer)] = first;
+    for (int code = first + 1; codes >> code != 0; ++code) {
+      if ((codes >> code & 1) != 0) may_be(*answer, code);
+    }
+  }
+  return is_possible && before != answers_;
+}
+
+// One more label of a rule's run; true where more ways are followed.
+bool RecordedWatch::read(std::size_t rule, bool has_passed, bool is_possible) {
+  Seen& seen = seen_[rule];
+  if (seen.run.outlook() != Outlook::Open) return false;
+  const RuleMonitor& monitor = monitors_[rule];
+  PropositionSet label = has_passed ? monitor.elapsed : 0;
+  PropositionSet unknown = 0;
+  for (std::size_t p = 0; p < monitor.propositions.size(); ++p) {
+    const Truth now = truth(monitor.propositions[p].expression);
+    if (now == Truth::Yes) label |= PropositionSet{1} << p;
+    if (now == Truth::Unknown) unknown |= PropositionSet{1} << p;
+  }
+  seen.has_unknown |= unknown != 0;
+  const std::size_t before = seen.run.ways();
+  if (is_possible) {
+    seen.run.read_more(label, unknown);
+  } else {
     seen.run.read(label, unknown);
-    if (unknown != 0) seen.run.read_more(label & ~rule.elapsed, unknown);
-    if (seen.run.outlook() != Outlook::Open) seen.decided = states_;
+  }
+  if (unknown != 0) seen.run.read_more(label & ~monitor.elapsed, unknown);
+  if (seen.run.outlook() != Outlook::Open) seen.decided = states_;
+  const bool has_more = is_possible && seen.run.ways() > before;
+  seen.has_ways |= has_more;
+  return has_more;
+}
+
+// True where that leaves more open than before.
+bool RecordedWatch::take(const Moment& moment, bool is_possible) {
+  for (const VariableId variable : open_) others_[index(variable)].clear();
+  open_.clear();
+  valuation_.variables = moment.values;
+  bool is_more = take_answers(moment, is_possible);
+  for (const auto& [variable, value] : moment.others) may_be(variable, value);
+  is_more |= note_past(moment.ends_tick, is_possible);
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    is_more |= read(i, moment.has_passed, is_possible);
+  }
+  return is_more;
+}
+
+void RecordedWatch::finish(bool is_possible) {
+  if (is_possible) {
+    loop_.push_back(moment_);
+  } else {
+    for (bool is_more = !loop_.empty(); is_more;) {
+      is_more = false;
+      for (const Moment& moment : loop_) is_more |= take(moment, true);
+    }
+    loop_.clear();
+    take(moment_, false);
   }
   ++states_;
 }

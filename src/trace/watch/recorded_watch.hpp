@@ -24,8 +24,9 @@ namespace btcheck {
 
 // Where a run comes from: what there is to be seen in it.
 enum class Recording : std::uint8_t {
-  Run,  // every step: an ITF file
-  Log   // the changes of statuses alone
+  Run,       // every step: an ITF file
+  Log,       // the changes of statuses alone
+  MarkedLog  // and all ticks, answers and entries
 };
 
 // What is known of a condition on states.
@@ -43,12 +44,14 @@ class RecordedWatch {
                                                      const SourceText& source);
 
   // The next state of the run, the first one included; `unseen(node)` says what
-  // else may have happened in it.
+  // else may have happened in it. Of states that are `possible`, one behind the
+  // other, all may have been left out, or have come several times over.
   template <class Unseen_>
-  void see(const RecordedState& state, Unseen_&& unseen) {
+  void see(const RecordedState& state, Unseen_&& unseen,
+           bool is_possible = false) {
     begin(state);
     for (std::size_t n = 0; n < nodes_; ++n) note_unseen(n, unseen(n), state);
-    finish(state);
+    finish(is_possible);
   }
   void see(const RecordedState& state) {
     see(state, [](std::size_t) { return Unseen::Nothing; });
@@ -59,6 +62,7 @@ class RecordedWatch {
     MonitorRun run;
     std::optional<std::size_t> decided;  // number of the state
     bool has_unknown = false;            // something was not known
+    bool has_ways = false;               // something may have been left out
   };
   const std::vector<Seen>& rules() const { return seen_; }
   std::size_t states() const { return states_; }
@@ -92,13 +96,26 @@ class RecordedWatch {
   RecordedWatch(const RecordedRun& run, const PropertyFile& rules)
       : network_(run, rules), rules_(rules), nodes_(run.nodes.size()) {}
 
+  // A state, as the network has it.
+  struct Moment {
+    std::vector<int> values;                                // by variable
+    std::vector<std::pair<VariableId, int>> others = {};    // or these
+    std::vector<std::pair<std::size_t, int>> answers = {};  // by node, new
+    bool has_passed = false;              // a unit of time, before it
+    std::vector<std::size_t> ended = {};  // roots, in the state before
+    bool ends_tick = false;
+  };
+
   void bind_memory(const SourceText& source);
   void begin(const RecordedState& state);
   void note_unseen(std::size_t node, Unseen unseen, const RecordedState& state);
   void note_anything(std::size_t node);
-  void finish(const RecordedState& state);
+  void finish(bool is_possible);
   void note_answers(const RecordedState& state);
-  void note_past(bool is_tick_end);
+  bool take(const Moment& moment, bool is_possible);
+  bool take_answers(const Moment& moment, bool is_possible);
+  bool note_past(bool is_tick_end, bool is_possible);
+  bool read(std::size_t rule, bool has_passed, bool is_possible);
   void may_be(VariableId variable, int value);
   Truth truth(const Expression& expression) const;
 
@@ -110,6 +127,9 @@ class RecordedWatch {
   std::vector<Past> past_;
   std::vector<std::size_t> root_of_;  // by node
   std::vector<Seen> seen_;
+  Moment moment_;                  // that is seen
+  std::vector<Moment> loop_;       // that may have been left out
+  std::vector<unsigned> answers_;  // by node: a bit for each it may have
   Valuation valuation_;
   // By variable: what else it may be; and those that have such values.
   std::vector<std::vector<int>> others_;

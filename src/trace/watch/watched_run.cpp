@@ -14,11 +14,18 @@
 #include <utility>
 
 #include "text/choice.hpp"
-#include "trace/logs/log_run.hpp"
+#include "trace/watch/log_watch.hpp"
 #include "trace/watch/recorded_watch.hpp"
 
 namespace btcheck {
 namespace {
+
+// What happened last is told, up to the moment.
+constexpr std::size_t kMostTold = 12;
+
+std::string at_tick(const RecordedState& state) {
+  return fmt::format("tick {:<4} {}", state.tick, state.event);
+}
 
 std::string counted(std::size_t count, std::string_view thing) {
   return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
@@ -72,11 +79,11 @@ using Show = std::function<bool(const RecordedState&)>;
 using Play = std::function<void(RecordedWatch&, const Show&)>;
 
 // Of a rule that has been decided in that state.
-RecordedRun run_up_to(const RecordedRun& heading, Recording recording,
-                      const PropertyFile& rules, const SourceText& source,
-                      std::size_t rule, std::size_t decided,
-                      const WatchedRule& told, const Play& play) {
-  auto again = RecordedWatch::make(heading, recording, rules, source);
+RecordedRun run_up_to(const RecordedRun& heading, const PropertyFile& rules,
+                      const SourceText& source, std::size_t rule,
+                      std::size_t decided, const WatchedRule& told,
+                      const Play& play) {
+  auto again = RecordedWatch::make(heading, Recording::Run, rules, source);
   RecordedWatch& watch = **again.value;
   Window window(watch, rule);
   play(watch, [&](const RecordedState& state) {
@@ -88,87 +95,41 @@ RecordedRun run_up_to(const RecordedRun& heading, Recording recording,
   return shown_run(std::move(alone), window.take(), told, watch.texts(rule));
 }
 
-// A log, and behind it, where the tree has ended, the time that goes on.
-// Whether another last tick is over is not known.
-void play_log(
-    RecordedWatch& watch, const BehaviorLog& log, std::int64_t tick_time,
-    const std::function<bool(const LogPlayer&, const RecordedState&)>& show,
-    std::int64_t pause = kTickPause) {
-  LogPlayer player(log, tick_time, pause);
+// Of a log: up to where a rule has been decided, or, where ticks are only
+// likely, to the record with which it was.
+RecordedRun run_of_log(const RecordedRun& names, const BehaviorLog& log,
+                       const LogReading& reading, const PropertyFile& rules,
+                       const SourceText& source, std::size_t rule,
+                       const LogWatch& watched, WatchedRule& told) {
+  const bool is_known = watched.knows_ticks();
+  auto made = LogWatch::make(names, log, reading, rules, source,
+                             is_known ? TickWays::All : TickWays::Likely);
+  LogWatch& again = **made.value;
+  Window window(again.watch(), rule);
+  std::deque<std::string> events;
   const auto see = [&](const RecordedState& state) {
-    watch.see(state, [&](std::size_t n) { return player.unseen(n); });
-    return show(player, state);
-  };
-  bool goes_on = true;
-  player.play([&] { return goes_on = see(player.state()); });
-  RecordedState later = player.state();
-  const bool has_ended =
-      later.locations[0] == "success" || later.locations[0] == "failure";
-  if (!goes_on || !has_ended) return;
-  ++later.time;
-  later.mover.reset();
-  later.event.clear();
-  later.step = "time passes";
-  see(later);
-}
-
-// Whether some pause may part two ticks or stand within one: the executor may
-// have slept, or a function blocked.
-bool has_doubtful_ticks(const BehaviorLog& log, std::int64_t tick_time) {
-  const std::int64_t most = std::max(most_pause(tick_time), kTickPause + 1);
-  const auto is_doubtful = [&](const LogTransition& one,
-                               const LogTransition& next) {
-    const std::int64_t pause = next.time - one.time;
-    return pause >= kLeastPause && pause < most;
-  };
-  return !is_own(log) &&
-         std::ranges::adjacent_find(log.transitions, is_doubtful) !=
-             log.transitions.end();
-}
-
-// Takes back what is decided otherwise where all doubtful pauses part two
-// ticks, or none does.
-void take_back_guesses(const RecordedRun& heading, const BehaviorLog& log,
-                       std::int64_t tick_time, const PropertyFile& rules,
-                       const SourceText& source,
-                       std::vector<WatchedRule>& told) {
-  if (!has_doubtful_ticks(log, tick_time)) return;
-  for (const std::int64_t pause : {kLeastPause, most_pause(tick_time)}) {
-    auto made = RecordedWatch::make(heading, Recording::Log, rules, source);
-    RecordedWatch& watch = **made.value;
-    const auto go_on = [](const LogPlayer&, const RecordedState&) {
-      return true;
-    };
-    play_log(watch, log, tick_time, go_on, pause);
-    for (std::size_t i = 0; i < told.size(); ++i) {
-      WatchedRule& rule = told[i];
-      if (rule.outlook == Outlook::Open ||
-          watch.rules()[i].run.outlook() == rule.outlook) {
-        continue;
-      }
-      rule.outlook = Outlook::Open;
-      rule.is_guessed = true;
-      rule.record.reset();
+    const auto& at = again.player().place().record;
+    const auto last = watched.moment(rule).place.record;
+    if (!is_known && at.has_value() && (!last || *at > *last)) return false;
+    window.add(state);
+    if (!state.event.empty()) {
+      events.push_back(is_known || !at ? at_tick(state)
+                                       : fmt::format("record {:<4} {}", *at + 1,
+                                                     state.event));
+      if (events.size() > kMostTold) events.pop_front();
     }
-  }
-}
-
-// The branches of a Parallel of a .btf tree go side by side, and a log that is
-// written of them has their records one branch after another. The engine itself
-// ticks one after the other.
-std::optional<Diagnostic> unordered(const BehaviorLog& log,
-                                    const SourceText& source) {
-  const auto side_by_side =
-      std::ranges::find_if(log.nodes, [](const LogNode& node) {
-        return node.type == "Parallel" || node.type == "ParallelAll";
-      });
-  if (!is_own(log) || side_by_side == log.nodes.end()) return std::nullopt;
-  return source.diagnostic(
-      Severity::Error, "BT1805", {},
-      fmt::format("this log does not show in which order the branches of `{}` "
-                  "went on",
-                  side_by_side->name),
-      "", "ask the ITF file of the run");
+    return !is_known ||
+           again.watch().states() <= watched.rules()[rule].decided.value_or(0);
+  };
+  again.play(see);
+  told.events.assign(events.begin(), events.end());
+  RecordedRun alone = names;
+  if (log.marks) take_entries(alone, *log.marks);
+  alone.states.clear();
+  RecordedRun run = shown_run(std::move(alone), window.take(), told,
+                              again.watch().texts(rule));
+  if (!is_known) run.end_words += "; where ticks begin is not logged";
+  return run;
 }
 
 }  // namespace
@@ -184,66 +145,53 @@ WatchedRule watched_rule(const BoundProperty& rule, Outlook outlook) {
   return watched;
 }
 
+WatchedRule watched_rule(const LogWatch& watch, std::size_t rule) {
+  WatchedRule watched = described(watch.rules()[rule]);
+  const LogWatch::Moment& moment = watch.moment(rule);
+  if (moment.place.record) watched.record = *moment.place.record + 1;
+  if (watch.knows_ticks()) watched.tick = moment.tick;
+  watched.time = moment.place.time;
+  if (watch.is_guessed(rule)) {
+    watched.guess = watch.knows_ticks() ? TickGuess::Count : TickGuess::Begin;
+  }
+  return watched;
+}
+
 Result<WatchReport> watch_log(const std::string& file, const BehaviorLog& log,
-                              std::int64_t tick_time, const PropertyFile& rules,
+                              const LogReading& reading,
+                              const PropertyFile& rules,
                               const SourceText& source) {
-  RecordedRun heading = LogPlayer(log, tick_time).heading();
+  RecordedRun heading = LogPlayer(log, reading).heading();
   heading.tree = file;
-  return watch_log_as(heading, file, log, tick_time, rules, source);
+  return watch_log_as(heading, file, log, reading, rules, source);
 }
 
 Result<WatchReport> watch_log_as(const RecordedRun& heading,
                                  const std::string& file,
-                                 const BehaviorLog& log, std::int64_t tick_time,
+                                 const BehaviorLog& log,
+                                 const LogReading& reading,
                                  const PropertyFile& rules,
                                  const SourceText& source) {
-  if (auto refused = unordered(log, source)) {
-    return {std::nullopt, {std::move(*refused)}};
-  }
-  auto made = RecordedWatch::make(heading, Recording::Log, rules, source);
+  auto made = LogWatch::make(heading, log, reading, rules, source);
   Result<WatchReport> result{std::nullopt, std::move(made.diagnostics)};
   if (!made.value) return result;
-  RecordedWatch& watch = **made.value;
-  std::vector<std::pair<LogPlace, int>> decided(watch.rules().size());
-  int ticks = 0;
-  play_log(watch, log, tick_time,
-           [&](const LogPlayer& player, const RecordedState& state) {
-             ticks = state.tick;
-             for (std::size_t i = 0; i < decided.size(); ++i) {
-               const auto& at = watch.rules()[i].decided;
-               if (at && *at + 1 == watch.states()) {
-                 decided[i] = {player.place(), state.tick};
-               }
-             }
-             return true;
-           });
+  LogWatch& watch = **made.value;
+  watch.play();
   WatchReport report;
   report.heading =
-      fmt::format("{}: {}, {}, {}", file, counted(log.nodes.size(), "node"),
-                  counted(log.transitions.size(), "record"),
-                  counted(static_cast<std::size_t>(ticks), "tick"));
-  for (std::size_t i = 0; i < watch.rules().size(); ++i) {
-    const RecordedWatch::Seen& seen = watch.rules()[i];
-    WatchedRule rule = described(seen);
-    const LogPlace& place = decided[i].first;
-    if (place.record) rule.record = *place.record + 1;
-    rule.tick = decided[i].second;
-    rule.time = place.time;
-    report.rules.push_back(std::move(rule));
+      fmt::format("{}: {}, {}", file, counted(log.nodes.size(), "node"),
+                  counted(log.transitions.size(), "record"));
+  if (watch.knows_ticks()) {
+    const auto ticks = static_cast<std::size_t>(watch.player().state().tick);
+    report.heading += ", " + counted(ticks, "tick");
   }
-  take_back_guesses(heading, log, tick_time, rules, source, report.rules);
-  for (std::size_t i = 0; i < report.rules.size(); ++i) {
-    WatchedRule& rule = report.rules[i];
-    if (rule.outlook != Outlook::Violated) continue;
-    rule.run =
-        run_up_to(heading, Recording::Log, rules, source, i,
-                  watch.rules()[i].decided.value_or(0), rule,
-                  [&](RecordedWatch& again, const Show& show) {
-                    play_log(again, log, tick_time,
-                             [&](const LogPlayer&, const RecordedState& state) {
-                               return show(state);
-                             });
-                  });
+  for (std::size_t i = 0; i < watch.rules().size(); ++i) {
+    WatchedRule rule = watched_rule(watch, i);
+    if (rule.outlook == Outlook::Violated) {
+      rule.run =
+          run_of_log(heading, log, reading, rules, source, i, watch, rule);
+    }
+    report.rules.push_back(std::move(rule));
   }
   result.value = std::move(report);
   return result;
@@ -286,8 +234,14 @@ Result<WatchReport> watch_run(const std::string& file, const RecordedRun& run,
     WatchedRule rule = described(seen);
     if (seen.decided) rule.tick = states[*seen.decided].tick;
     if (rule.outlook == Outlook::Violated) {
-      rule.run = run_up_to(run, Recording::Run, rules, source, i,
-                           seen.decided.value_or(0), rule, play);
+      rule.run = run_up_to(run, rules, source, i, seen.decided.value_or(0),
+                           rule, play);
+      std::deque<std::string> events;
+      for (const RecordedState& state : rule.run->states) {
+        if (!state.event.empty()) events.push_back(at_tick(state));
+        if (events.size() > kMostTold) events.pop_front();
+      }
+      rule.events.assign(events.begin(), events.end());
     }
     report.rules.push_back(std::move(rule));
   }
@@ -305,53 +259,53 @@ std::string word_of(const WatchedRule& rule) {
   return std::string(kOutlookNames[static_cast<std::size_t>(rule.outlook)]);
 }
 
-std::string moment_of(const WatchedRule& rule) {
+}  // namespace
+
+std::string moment_text(const WatchedRule& rule) {
   if (rule.outlook == Outlook::Open) {
-    if (rule.is_guessed) {
+    if (rule.guess == TickGuess::Begin) {
       return fmt::format(
-          "  (a pause may be between two ticks or within one; {} says how long "
-          "they are)",
-          word(Choice::TickMs));
+          "where ticks begin is not logged, and decides it: attach "
+          "btcheck::observer to the tree, or say {}",
+          word(Choice::TickGap, "MS"));
+    }
+    if (rule.guess == TickGuess::Count) {
+      return fmt::format(
+          "ticks without a record are not logged, and decide it: attach "
+          "btcheck::observer to the tree, or say {}",
+          word(Choice::TickMs, "MS"));
     }
     if (!rule.has_unknown) return "";
-    return "  (what it asks for is not known in each state)";
+    return "what it asks for is not known in each state";
   }
-  const std::string tick = rule.tick == 0 ? "before the first tick"
-                                          : fmt::format("tick {}", rule.tick);
-  if (!rule.record) return fmt::format("  ({})", tick);
-  return fmt::format("  (record {}, {}, after {}.{:06} s)", *rule.record, tick,
-                     rule.time / 1'000'000, rule.time % 1'000'000);
-}
-
-// What happened last, up to the moment.
-std::string events_of(const RecordedRun& run) {
-  constexpr std::size_t kMostTold = 12;
-  std::deque<std::string> lines;
-  for (const RecordedState& state : run.states) {
-    if (state.event.empty()) continue;
-    lines.push_back(
-        fmt::format("    tick {:<4} {}\n", state.tick, state.event));
-    if (lines.size() > kMostTold) lines.pop_front();
+  const std::string tick = !rule.tick ? ""
+                           : *rule.tick == 0
+                               ? "before the first tick"
+                               : fmt::format("tick {}", *rule.tick);
+  if (!rule.record) {
+    return tick.empty() ? "before the first record" : tick;
   }
-  std::string text = "\n";
-  for (const std::string& line : lines) text += line;
-  return text + "    -- " + run.end_words + "\n\n";
+  return fmt::format("record {}, {}{}after {}.{:06} s", *rule.record, tick,
+                     tick.empty() ? "" : ", ", rule.time / 1'000'000,
+                     rule.time % 1'000'000);
 }
-
-}  // namespace
 
 std::string watch_text(const WatchReport& report) {
   std::string text = report.heading + "\n";
   std::array<std::size_t, 4> counts{};
   for (const WatchedRule& rule : report.rules) {
     ++counts[static_cast<std::size_t>(rule.outlook)];
+    const std::string moment = moment_text(rule);
     text += fmt::format("{:<10} {}{}{}\n", word_of(rule), rule.name,
-                        moment_of(rule),
+                        moment.empty() ? "" : fmt::format("  ({})", moment),
                         rule.is_expected ? "  (expected violated)" : "");
     if (!rule.title.empty()) text += fmt::format("{}{}\n", kIndent, rule.title);
     if (rule.outlook != Outlook::Violated) continue;
     text += fmt::format("{}{}\n", kIndent, rule.text);
-    if (rule.run) text += events_of(*rule.run);
+    if (!rule.run) continue;
+    text += "\n";
+    for (const std::string& event : rule.events) text += "    " + event + "\n";
+    text += "    -- " + rule.run->end_words + "\n\n";
   }
   text += fmt::format("\n{}: {} satisfied, {} violated, {} open",
                       counted(report.rules.size(), "rule"), counts[1],

@@ -15,8 +15,16 @@
 #include "text/diagnostic.hpp"
 #include "trace/logs/behavior_log.hpp"
 #include "trace/run/recorded_run.hpp"
+#include "trace/watch/log_watch.hpp"
 
 namespace btcheck {
+
+// What an open rule would be decided by, and a log does not show.
+enum class TickGuess : std::uint8_t {
+  None,
+  Begin,  // between which records ticks begin
+  Count   // how many have left no record
+};
 
 // A rule, and the moment at which it was decided.
 struct WatchedRule {
@@ -27,34 +35,40 @@ struct WatchedRule {
   bool is_question = false;  // `possible`: satisfied where it was shown
   bool is_expected = false;  // the file expects it to be violated
   bool has_unknown = false;  // something that it asks for was not known
-  // Open, and decided if ticks began where they most likely did.
-  bool is_guessed = false;
+  TickGuess guess = TickGuess::None;
   std::optional<std::size_t> record;  // of a log, from 1
-  int tick = 0;
-  std::int64_t time = 0;  // of a log: microseconds since it began
-  // Of a violated one, the run up to there: its last kMostShown states.
+  std::optional<int> tick;            // where it is known
+  std::int64_t time = 0;              // of a log: microseconds since it began
+  // Of a violated one, the run up to there: its last kMostShown states, and
+  // what happened last in words.
+  std::vector<std::string> events;
   std::optional<RecordedRun> run;
 };
 inline constexpr std::size_t kMostShown = 4000;
 
 // Without the moment.
 WatchedRule watched_rule(const BoundProperty& rule, Outlook outlook);
+// With it, as far as the log has been played.
+WatchedRule watched_rule(const LogWatch& watch, std::size_t rule);
+// When it was decided, or why it is not: "record 4, tick 2, after 0.2 s"; "".
+std::string moment_text(const WatchedRule& rule);
 
 struct WatchReport {
   std::string heading;  // "robot.btlog: 6 nodes, 16 records, 3 ticks"
   std::vector<WatchedRule> rules;
 };
 
-// Goes through a log whose ticks take so many microseconds, unless btcheck has
-// written it. The rules must have been read without an error.
+// Goes through a log. The rules must have been read without an error.
 Result<WatchReport> watch_log(const std::string& file, const BehaviorLog& log,
-                              std::int64_t tick_time, const PropertyFile& rules,
+                              const LogReading& reading,
+                              const PropertyFile& rules,
                               const SourceText& source);
 
 // The same by the names of a tree whose nodes have the places of the log's.
 Result<WatchReport> watch_log_as(const RecordedRun& tree,
                                  const std::string& file,
-                                 const BehaviorLog& log, std::int64_t tick_time,
+                                 const BehaviorLog& log,
+                                 const LogReading& reading,
                                  const PropertyFile& rules,
                                  const SourceText& source);
 

@@ -21,28 +21,13 @@
 #include "text/diagnostic.hpp"
 #include "text/numbers.hpp"
 #include "text/utf8.hpp"
+#include "text/words.hpp"
 
 namespace btcheck::btcpp {
 namespace {
 
 constexpr double kMostKept = 0x1p31;
 constexpr double kNoEnd = std::numeric_limits<double>::infinity();
-
-// Letters beyond ASCII are letters of properties, too.
-std::string as_word(std::string_view text) {
-  std::string word;
-  for (const char c : text) {
-    const bool is_kept =
-        is_letter(c) || is_digit(c) || static_cast<unsigned char>(c) >= 0x80;
-    word += is_kept ? c : '_';
-  }
-  return word;
-}
-
-std::string number_word(double number) {
-  std::string word = as_word(fmt::format("{}", std::abs(number)));
-  return number < 0 ? "minus_" + word : word;
-}
 
 // What a state is called, and what a property can say of it.
 struct ToldValue {
