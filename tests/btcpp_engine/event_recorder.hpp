@@ -55,17 +55,18 @@ class EventRecorder {
     }
   }
 
-  // Whatever is told from now on happens in a tick, until it ends.
-  void begin_tick() { tick("tick"); }
-  void end_tick(BT::NodeStatus status) {
+  // Whatever is told from now on happens in a tick. It ends where the top node
+  // has answered, and its status is what it has answered; that the tree resets
+  // it comes later.
+  void begin_tick() {
     const std::scoped_lock lock(mutex_);
-    note("end " + word_of(status));
-    is_answered_ = false;
+    note("tick");
+    is_over_ = false;
   }
   void leave_tick() {
     const std::scoped_lock lock(mutex_);
     note("throw");
-    is_answered_ = false;
+    is_over_ = true;
   }
 
   std::string text() const { return head_ + "\n" + events_; }
@@ -83,58 +84,60 @@ class EventRecorder {
     }
   }
 
-  void tick(const char* what) {
-    const std::scoped_lock lock(mutex_);
-    note(what);
-    is_answered_ = false;
-  }
-
   void listen_to(BT::TreeNode& node, std::size_t number) {
     const std::string told = std::to_string(number);
 #if ENGINE_4
     node.setPreTickFunction([this, number, told](BT::TreeNode&) {
       const std::scoped_lock lock(mutex_);
-      if (number == 1 && is_answered_) go_on();
+      if (number == 1) go_on();
       note("begin " + told);
       return BT::NodeStatus::IDLE;  // ticks it
     });
     node.setPostTickFunction(
-        [this, number, told](BT::TreeNode&, BT::NodeStatus status) {
-          note_answer(number, told, status);
+        [this, number, told](BT::TreeNode& self, BT::NodeStatus status) {
+          note_answer(number, told, self, status);
           return BT::NodeStatus::IDLE;  // changes nothing
         });
 #else
     node.setPostTickOverrideFunction(
         [this, number, told](
-            BT::TreeNode&, BT::NodeStatus,
+            BT::TreeNode& self, BT::NodeStatus,
             BT::NodeStatus status) -> BT::Optional<BT::NodeStatus> {
-          note_answer(number, told, status);
+          note_answer(number, told, self, status);
           return nonstd::make_unexpected("");  // changes nothing
         });
 #endif
     subscribers_.push_back(node.subscribeToStatusChange(
-        [this, told](BT::TimePoint, const BT::TreeNode&, BT::NodeStatus before,
-                     BT::NodeStatus after) {
+        [this, number, told](BT::TimePoint, const BT::TreeNode&,
+                             BT::NodeStatus before, BT::NodeStatus after) {
           const std::scoped_lock lock(mutex_);
           note("change " + told + " " + word_of(before) + " " + word_of(after));
+          if (number == 1) end_tick();
         }));
   }
 
   void note_answer(std::size_t number, const std::string& told,
-                   BT::NodeStatus status) {
+                   const BT::TreeNode& node, BT::NodeStatus status) {
     const std::scoped_lock lock(mutex_);
-    if (number == 1) {
-      if (is_answered_) go_on();
-      is_answered_ = true;
-    }
+    if (number == 1) go_on();
     note("answer " + told + " " + word_of(status));
+    if (number != 1) return;
+    end_ = "end " + word_of(status);
+    const bool is_kept =
+        node.status() == status || word_of(status) == "skipped";
+    if (is_kept) end_tick();
+  }
+  void end_tick() {
+    if (end_.empty()) return;
+    note(std::exchange(end_, ""));
+    is_over_ = true;
   }
 
   // The tree was woken up within one tickOnce().
   void go_on() {
-    note("end running");
+    if (!is_over_) return;
     note("wake");
-    is_answered_ = false;
+    is_over_ = false;
   }
 
   // What an event finds in the entries is told before it.
@@ -159,7 +162,8 @@ class EventRecorder {
   std::vector<Entry> entries_;
   std::string head_;
   std::string events_;
-  bool is_answered_ = false;  // by the top node, in this tick
+  std::string end_;      // of the tick, which the next change of the top brings
+  bool is_over_ = true;  // this tick
   std::mutex mutex_;
   std::vector<BT::TreeNode::StatusChangeSubscriber> subscribers_;
 };

@@ -29,7 +29,7 @@
 
 namespace fs = std::filesystem;
 
-#if !ENGINE_4
+#if !ENGINE_4 && !defined(BTCHECK_ENGINE)  // not with an observer
 // Declared by 3.8 and used by it, but not defined.
 void BT::TreeNode::setPostTickOverrideFunction(
     PostTickOverrideCallback callback) {

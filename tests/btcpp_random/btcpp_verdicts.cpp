@@ -2,7 +2,8 @@
 //
 // What rules say of runs of the engine, by their definitions: for each
 // NAME.events, which run_observer writes, and its NAME.ltl, the lines of
-// NAME.naive.
+// NAME.naive; and what a monitor says of them that has the table NAME.monitor,
+// where there is one, as NAME.monitored.
 //   btcpp_verdicts NAME.events...
 #include <fmt/format.h>
 
@@ -13,8 +14,10 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "btcpp_random/engine_events.hpp"
+#include "btcpp_random/monitored.hpp"
 #include "btcpp_random/naive_rules.hpp"
 #include "ltl/rules/property.hpp"
 
@@ -31,6 +34,11 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
+void write(const fs::path& file, const std::vector<NaiveVerdict>& verdicts) {
+  std::ofstream out(file);
+  for (const NaiveVerdict& verdict : verdicts) out << shown(verdict) << '\n';
+}
+
 void write_verdicts(const fs::path& events) {
   const fs::path name = fs::path(events).replace_extension(".ltl");
   const auto rules = read_properties(name.string(), text_of(name));
@@ -39,12 +47,12 @@ void write_verdicts(const fs::path& events) {
                                          rules.diagnostics.front().message));
   }
   const EngineRun run = engine_run(text_of(events));
-  std::string text;
-  for (const NaiveVerdict& verdict : naive_verdicts(run, *rules.value)) {
-    text += shown(verdict) + '\n';
-  }
-  std::ofstream out(fs::path(events).replace_extension(".naive"));
-  out << text;
+  write(fs::path(events).replace_extension(".naive"),
+        naive_verdicts(run, *rules.value));
+  const fs::path table = fs::path(events).replace_extension(".monitor");
+  if (!fs::exists(table)) return;
+  write(fs::path(events).replace_extension(".monitored"),
+        monitored_verdicts(run, text_of(table)));
 }
 
 }  // namespace
