@@ -706,8 +706,7 @@ class Observer final : private Hearer {
     decided_.reserve(monitor_.rule_count());
     last_values_.resize(table_.entries.size());
     for (const monitor::Table::Entry& entry : table_.entries) {
-      // The node is the first of its subtree, and has its blackboard.
-      boards_.push_back(board_of(*hub_->nodes()[entry.node - 1]));
+      boards_.push_back(board_of(entry.node));
     }
     monitor_.on_verdict = [this](std::size_t rule, Verdict verdict) {
       decided_.push_back({rule, verdict, monitor_.ticks()});
@@ -808,7 +807,7 @@ class Observer final : private Hearer {
   // An entry of the tree's own blackboard gets a value.
   template <class Value_>
   Observer& set_entry(std::string_view rule, std::string key, Value_ value) {
-    const auto board = board_of(*hub_->nodes()[0]);
+    const auto board = tree_.rootBlackboard();
     return with(rule, [&](Policy& policy) {
       policy.callbacks.push_back([board, key, value](const Decision& decided) {
         if (decided.verdict == Verdict::Violated) board->set(key, value);
@@ -845,8 +844,21 @@ class Observer final : private Hearer {
   };
   static constexpr std::size_t kRemembered = 16;
 
-  static BT::Blackboard::Ptr board_of(const BT::TreeNode& node) {
-    return node.config().blackboard;
+  // Of the subtree with that first node. In 3.8 a node without ports does not
+  // know its blackboard: another one of the subtree does, or nothing there has
+  // entries.
+  BT::Blackboard::Ptr board_of(std::size_t first) const {
+    if (first == 1) return tree_.rootBlackboard();
+    const std::size_t above = hub_->parents()[first - 1];
+    std::vector<char> is_inside(hub_->nodes().size() + 1, false);
+    is_inside[above] = true;
+    for (std::size_t n = first; n <= hub_->nodes().size(); ++n) {
+      if (!is_inside[hub_->parents()[n - 1]]) continue;
+      const BT::TreeNode& node = *hub_->nodes()[n - 1];
+      if (node.config().blackboard) return node.config().blackboard;
+      is_inside[n] = node.registrationName().compare(0, 7, "SubTree") != 0;
+    }
+    return nullptr;
   }
 
   static const monitor::Table& required(const monitor::Table& table,
@@ -992,6 +1004,7 @@ class Observer final : private Hearer {
 
   void look_at_entries() {
     for (std::size_t i = 0; i < boards_.size(); ++i) {
+      if (!boards_[i]) continue;
       EntryValue value = engine::value_in(*boards_[i], table_.entries[i].key);
       if (value == last_values_[i]) continue;
       if (log_) log_->entry(i, value);

@@ -15,6 +15,8 @@
 #include <string_view>
 
 #include "btcpp_random/finding_scripts.hpp"
+#include "btcpp_random/random_rules.hpp"
+#include "btcpp_random/scripted_run.hpp"
 #include "btcpp_random/scripted_tree.hpp"
 #include "reference/telling_names.hpp"
 
@@ -30,6 +32,7 @@ struct Request {
   int ticks = 20;
   World world = World::Scripted;
   bool plays_findings = false;
+  int rules = 0;  // of each tree
   fs::path folder;
 };
 
@@ -72,6 +75,8 @@ Request request_in(int count, char** words) {
       request.world = is_yes(option, value) ? World::Clocked : World::Scripted;
     } else if (option == "--findings") {
       request.plays_findings = is_yes(option, value);
+    } else if (option == "--rules") {
+      request.rules = number_in<int>(value);
     } else if (option == "--dir") {
       request.folder = value;
     } else {
@@ -81,7 +86,8 @@ Request request_in(int count, char** words) {
   if (count % 2 == 0 || request.folder.empty()) {
     throw std::runtime_error(
         "usage: btcpp_random --dir DIR [--profile btcpp-4] [--seed 1] "
-        "[--count 100] [--ticks 20] [--clock no] [--findings no]");
+        "[--count 100] [--ticks 20] [--clock no] [--findings no] "
+        "[--rules 10]");
   }
   return request;
 }
@@ -99,6 +105,16 @@ void write_tree(const fs::path& name, const ScriptedTree& tree) {
   write(fs::path(name).concat(".entries"), tree.entries);
 }
 
+// Asked of the tree as btcheck reads it, by script/compare-observer.
+void write_rules(const fs::path& name, const ScriptedTree& made,
+                 const Request& request, std::uint64_t seed) {
+  if (request.rules == 0) return;
+  const auto tree = read_tree("t.xml", made.xml,
+                              scripted_reading(request.profile, made.leaves));
+  write(fs::path(name).concat(".ltl"),
+        random_rules(seed, *tree.value, request.rules));
+}
+
 void write_trees(const Request& request) {
   fs::create_directories(request.folder);
   for (std::uint64_t i = 0; i < request.count; ++i) {
@@ -106,7 +122,9 @@ void write_trees(const Request& request) {
     const ScriptedTree tree = random_scripted_tree(
         seed, request.profile, request.world, request.ticks);
     if (!request.plays_findings) {
-      write_tree(request.folder / fmt::format("t{}", seed), tree);
+      const fs::path name = request.folder / fmt::format("t{}", seed);
+      write_tree(name, tree);
+      write_rules(name, tree, request, seed);
       continue;
     }
     int number = 0;

@@ -226,12 +226,18 @@ std::size_t most_values(const ScriptDetail& detail, const EntryName& entry) {
 }
 
 std::vector<std::string> names_of_entries(
-    const BtcppExpansion& expansion, const std::vector<EntryName>& entries) {
+    const BtcppExpansion& expansion, const std::vector<EntryName>& entries,
+    const std::map<EntryName, std::string>& known) {
   std::vector<std::string> names;
   std::map<std::string, int> uses;
   std::set<std::string> taken;
+  for (const auto& [entry, name] : known) taken.insert(name);
   for (const EntryName& entry : entries) ++uses[as_word(entry.name)];
   for (const EntryName& entry : entries) {
+    if (const auto named = known.find(entry); named != known.end()) {
+      names.push_back(named->second);
+      continue;
+    }
     std::string name = as_word(entry.name);
     if (name.empty()) name = "_";
     if (uses[as_word(entry.name)] > 1 && entry.subtree != 0) {

@@ -65,9 +65,10 @@ std::string compared_with(const ScriptDetail& detail, const EntryName& entry);
 std::size_t most_values(const ScriptDetail& detail, const EntryName& entry);
 
 // The names that properties have for entries, which are ordered by subtree, so
-// that the root's come first.
+// that the root's come first; those of `known` keep theirs.
 std::vector<std::string> names_of_entries(
-    const BtcppExpansion& expansion, const std::vector<EntryName>& entries);
+    const BtcppExpansion& expansion, const std::vector<EntryName>& entries,
+    const std::map<EntryName, std::string>& known = {});
 
 // A state variable for each of the entries, under a name that properties can
 // use. An entry with a literal begins with it, all others begin as unknown.

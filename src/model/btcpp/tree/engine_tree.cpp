@@ -82,7 +82,7 @@ class Conversion final : PortReader {
       ask_budget();
       add(i);
     }
-    note_entry_uses(expansion_, tree_);
+    note_entry_uses(expansion_, scripts_.entries(), tree_);
     tree_.programs = scripts_.programs();
     tree_.open_entries = scripts_.open_entries();
     tell_open_entries();

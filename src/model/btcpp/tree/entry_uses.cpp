@@ -17,8 +17,10 @@ namespace {
 
 class Noting {
  public:
-  Noting(const BtcppExpansion& expansion, BehaviorTree& tree)
-      : expansion_(expansion), tree_(tree) {}
+  Noting(const BtcppExpansion& expansion,
+         const std::map<EntryName, StateVariableId>& variables,
+         BehaviorTree& tree)
+      : expansion_(expansion), variables_(variables), tree_(tree) {}
 
   void note_all() {
     for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) {
@@ -34,6 +36,8 @@ class Noting {
       for (const auto& port : at_->node->ports) note_port(port);
       note_setting();
     }
+    // What a SubTree is given as it stands may be used by nobody.
+    for (const auto& [entry, variable] : variables_) number_of(entry);
     name_homes();
   }
 
@@ -42,6 +46,10 @@ class Noting {
     return add(entry_of(expansion_, at_->subtree, key));
   }
   EntryUse& add(const EntryName& entry) {
+    return tree_.entry_uses.emplace_back(
+        EntryUse{.node = node_, .entry = number_of(entry)});
+  }
+  std::uint32_t number_of(const EntryName& entry) {
     const auto number = static_cast<std::uint32_t>(tree_.entries.size());
     const auto [known, is_new] = numbers_.emplace(entry, number);
     if (is_new) {
@@ -49,15 +57,19 @@ class Noting {
       const auto& home = expansion_.subtrees[entry.subtree];
       tree_.entry_homes.push_back({NodeId{home.first_node + 1}, ""});
     }
-    return tree_.entry_uses.emplace_back(
-        EntryUse{.node = node_, .entry = known->second});
+    return known->second;
   }
 
-  // Of numbers_, which is in the order that names want.
+  // Of numbers_, which is in the order that names want. A variable has the same
+  // name in every rule.
   void name_homes() {
     std::vector<EntryName> entries;
     for (const auto& [entry, number] : numbers_) entries.push_back(entry);
-    const auto names = names_of_entries(expansion_, entries);
+    std::map<EntryName, std::string> known;
+    for (const auto& [entry, variable] : variables_) {
+      known[entry] = tree_.variable(variable).name;
+    }
+    const auto names = names_of_entries(expansion_, entries, known);
     for (std::size_t i = 0; i < entries.size(); ++i) {
       tree_.entry_homes[numbers_.at(entries[i])].name = names[i];
     }
@@ -135,6 +147,7 @@ class Noting {
   }
 
   const BtcppExpansion& expansion_;
+  const std::map<EntryName, StateVariableId>& variables_;
   BehaviorTree& tree_;
   const BtcppInstance* at_ = nullptr;
   NodeId node_{};
@@ -143,8 +156,10 @@ class Noting {
 
 }  // namespace
 
-void note_entry_uses(const BtcppExpansion& expansion, BehaviorTree& tree) {
-  Noting(expansion, tree).note_all();
+void note_entry_uses(const BtcppExpansion& expansion,
+                     const std::map<EntryName, StateVariableId>& variables,
+                     BehaviorTree& tree) {
+  Noting(expansion, variables, tree).note_all();
 }
 
 }  // namespace btcheck::btcpp

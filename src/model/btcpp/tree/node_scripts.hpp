@@ -39,6 +39,10 @@ class NodeScripts {
     return world_.variables;
   }
 
+  const std::map<EntryName, StateVariableId>& entries() const {
+    return world_.of;
+  }
+
   // The code of one script, inside a subtree.
   Script script(ScriptRole role, std::uint32_t subtree, std::string_view code);
   // Whether two ports are equal, each a literal or an entry `{name}`. A port
