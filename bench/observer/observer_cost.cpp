@@ -6,8 +6,8 @@
 //     observer_cost TREE TABLE [ROUNDS]
 //
 // Prints nanoseconds for each change of status that the tree makes.
-#include <btcheck/observer.hpp>
 #include <behaviortree_cpp/loggers/bt_file_logger_v2.h>
+#include <btcheck/observer.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -54,9 +54,7 @@ BT::Tree tree_of(const std::string& file) {
       using BT::StatefulActionNode::StatefulActionNode;
       static BT::PortsList providedPorts() { return {}; }
       BT::NodeStatus onStart() override { return BT::NodeStatus::RUNNING; }
-      BT::NodeStatus onRunning() override {
-        return BT::NodeStatus::RUNNING;
-      }
+      BT::NodeStatus onRunning() override { return BT::NodeStatus::RUNNING; }
       void onHalted() override {}
     };
     factory.registerNodeType<Runs>("ActionR");

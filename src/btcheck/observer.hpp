@@ -65,9 +65,6 @@ inline void BT::TreeNode::setPostTickOverrideFunction(
 
 namespace btcheck {
 
-using monitor::EntryValue;
-using monitor::Status;
-using monitor::Verdict;
 using monitor::WrongTable;
 using monitor::WrongTree;
 
@@ -85,7 +82,7 @@ struct Decision {
   std::size_t rule = 0;
   std::string name;
   std::string text;
-  Verdict verdict = Verdict::Open;
+  monitor::Verdict verdict = monitor::Verdict::Open;
   std::uint64_t tick = 0;  // how many had begun
   std::string evidence;    // what happened last, a line for each event
 
@@ -124,8 +121,8 @@ using Config = BT::NodeConfig;
 using Config = BT::NodeConfiguration;
 #endif
 
-inline Status status_of(BT::NodeStatus status) {
-  return static_cast<Status>(status);
+inline monitor::Status status_of(BT::NodeStatus status) {
+  return static_cast<monitor::Status>(status);
 }
 
 inline bool is_completed(BT::NodeStatus status) {
@@ -175,28 +172,28 @@ inline void halt(BT::TreeNode& node) {
 #endif
 }
 
-inline EntryValue value_of(const BT::Any* any) {
-  EntryValue value;
+inline monitor::EntryValue value_of(const BT::Any* any) {
+  monitor::EntryValue value;
   if (any == nullptr) return value;
   if (any->empty()) {
-    value.kind = EntryValue::NoValue;
+    value.kind = monitor::EntryValue::NoValue;
   } else if (any->isString()) {
-    value.kind = EntryValue::Text;
+    value.kind = monitor::EntryValue::Text;
     value.text = any->template cast<std::string>();
   } else if (any->isNumber()) {
     const auto& type = any->castedType();
     if (type == typeid(double)) {
-      value.kind = EntryValue::Real;
+      value.kind = monitor::EntryValue::Real;
       value.real = any->template cast<double>();
     } else if (type == typeid(std::uint64_t)) {
-      value.kind = EntryValue::Real;
+      value.kind = monitor::EntryValue::Real;
       value.real = static_cast<double>(any->template cast<std::uint64_t>());
     } else {
-      value.kind = EntryValue::Integer;
+      value.kind = monitor::EntryValue::Integer;
       value.integer = any->template cast<std::int64_t>();
     }
   } else {
-    value.kind = EntryValue::Other;
+    value.kind = monitor::EntryValue::Other;
   }
   return value;
 }
@@ -216,25 +213,32 @@ struct HasEntryMutex<
     : std::true_type {};
 
 template <class Board_>
-EntryValue value_in(Board_& board, const std::string& key) {
+monitor::EntryValue value_in(Board_& board, const std::string& key) {
   if constexpr (HasLockedEntries<Board_>::value) {
     const auto any = board.getAnyLocked(key);
     return value_of(any ? any.get() : nullptr);
   } else if constexpr (HasEntryMutex<Board_>::value) {
-    const std::unique_lock<std::mutex> lock(board.entryMutex());
+    const std::unique_lock<std::decay_t<decltype(board.entryMutex())>> lock(
+        board.entryMutex());
     return value_of(board.getAny(key));
   } else {
     return value_of(board.getAny(key));
   }
 }
 
-// What FileLogger2 writes: a tree for each subtree, with the uids of its nodes.
 #if BTCHECK_ENGINE == 4
-inline std::string xml_of(const BT::Tree& tree) {
-  return BT::WriteTreeToXML(tree, true, true);
+inline std::uint16_t uid_of(const BT::TreeNode& node, std::size_t) {
+  return node.UID();
 }
 #else
-// 3.8 has no such writer. Its nodes are numbered in pre-order.
+// Its own go on from tree to tree.
+inline std::uint16_t uid_of(const BT::TreeNode&, std::size_t number) {
+  return static_cast<std::uint16_t>(number);
+}
+#endif
+
+// Where the engine has no writer that tells the uids of nodes: 3.8, and 4 up to
+// 4.2.
 class TreeXml {
  public:
   std::string write(const BT::Tree& tree) {
@@ -258,7 +262,7 @@ class TreeXml {
   void add(std::string& text, const std::string& path, BT::TreeNode* node,
            std::size_t depth) {
     const std::string blanks(2 * depth, ' ');
-    const std::size_t uid = ++count_;
+    const std::size_t uid = uid_of(*node, ++count_);
     const std::string type = node->registrationName();
     const bool is_tree = type.compare(0, 7, "SubTree") == 0;
     const std::string own =
@@ -293,18 +297,28 @@ class TreeXml {
   std::vector<std::string> trees_;
   std::size_t count_ = 0;
 };
-inline std::string xml_of(const BT::Tree& tree) {
-  return TreeXml().write(tree);
-}
+// What FileLogger2 writes: a tree for each subtree, with the uids of its nodes.
+template <class Tree_, class = void>
+struct XmlOf {
+  static std::string text(const Tree_& tree) { return TreeXml().write(tree); }
+};
+#if BTCHECK_ENGINE == 4
+template <class Tree_>
+struct XmlOf<Tree_, std::void_t<decltype(BT::WriteTreeToXML(
+                        std::declval<const Tree_&>(), true, true))>> {
+  static std::string text(const Tree_& tree) {
+    return BT::WriteTreeToXML(tree, true, true);
+  }
+};
 #endif
 
 }  // namespace engine
 
 // --- The verdict as a node -------------------------------------------------
 
-// <Verdict rule="battery_low" is="violated"/>: succeeds while the rule of that
-// name has that verdict, so that the tree can react to what was seen. btcheck
-// knows the node (docs/robots.md).
+// <Verdict rule="battery_low" is="violated"/>: succeeds while the rule
+// of that name has that verdict, so that the tree can react to what was seen.
+// btcheck knows the node (docs/robots.md).
 class VerdictCondition : public BT::ConditionNode {
  public:
   VerdictCondition(const std::string& name, const engine::Config& config)
@@ -331,7 +345,7 @@ class VerdictCondition : public BT::ConditionNode {
 
   std::string rule_;
   std::size_t number_ = 0;
-  Verdict verdict_ = Verdict::Violated;
+  monitor::Verdict verdict_ = monitor::Verdict::Violated;
   std::atomic<const monitor::Monitor*> watched_{nullptr};
 };
 
@@ -347,11 +361,12 @@ class Hearer {
  public:
   virtual ~Hearer() = default;
   virtual void tick_begins(bool is_wake_up) = 0;
-  virtual void tick_ends(Status answer) = 0;
+  virtual void tick_ends(monitor::Status answer) = 0;
   virtual void tick_is_left() = 0;
   virtual void begins(std::size_t node) = 0;
-  virtual void answers(std::size_t node, Status status) = 0;
-  virtual void changes(std::size_t node, Status before, Status after) = 0;
+  virtual void answers(std::size_t node, monitor::Status status) = 0;
+  virtual void changes(std::size_t node, monitor::Status before,
+                       monitor::Status after) = 0;
   // Outside of the lock, once the event has been told.
   virtual void settle() = 0;
   // What becomes of the tick, asked where it ends, or begins.
@@ -536,8 +551,9 @@ class Hub : public std::enable_shared_from_this<Hub> {
         hearer.answers(node, engine::status_of(status));
       });
       if (node == 1) {
-        const bool will_change = status != self.status() &&
-                                 engine::status_of(status) != Status::Skipped;
+        const bool will_change =
+            status != self.status() &&
+            engine::status_of(status) != monitor::Status::Skipped;
         answer_ = engine::status_of(status);
         is_ending_ = will_change;
       }
@@ -556,14 +572,15 @@ class Hub : public std::enable_shared_from_this<Hub> {
     return BT::NodeStatus::IDLE;
   }
 
-  void changes(std::size_t node, Status before, Status after) {
+  void changes(std::size_t node, monitor::Status before,
+               monitor::Status after) {
     bool is_of_tick = true;  // or of a thread beside it
     {
       const Hold hold(*this);
       is_of_tick =
           !is_in_tick_ || std::this_thread::get_id() == ticking_thread_;
-      const bool is_answer =
-          after == Status::Success || after == Status::Failure;
+      const bool is_answer = after == monitor::Status::Success ||
+                             after == monitor::Status::Failure;
       if (is_threaded_[node - 1] && is_answer &&
           std::this_thread::get_id() != ticking_thread_) {
         pending_.push_back({node, before, after});
@@ -571,9 +588,9 @@ class Hub : public std::enable_shared_from_this<Hub> {
       }
       tell_pending(node);
       // 3.8 has no callback where a tick begins.
-      if (!is_in_tick_ && after != Status::Idle) begin_tick();
+      if (!is_in_tick_ && after != monitor::Status::Idle) begin_tick();
       tell([&](Hearer& hearer) { hearer.changes(node, before, after); });
-      if (node == 1 && is_ending_ && after != Status::Idle) end_tick();
+      if (node == 1 && is_ending_ && after != monitor::Status::Idle) end_tick();
     }
     if (is_of_tick) settle();
   }
@@ -610,8 +627,8 @@ class Hub : public std::enable_shared_from_this<Hub> {
     if (!engine::is_completed(status)) {
       engine::halt(root);
       const Hold hold(*this);
-      answer_ = Status::Failure;
-      tell([](Hearer& hearer) { hearer.answers(1, Status::Failure); });
+      answer_ = monitor::Status::Failure;
+      tell([](Hearer& hearer) { hearer.answers(1, monitor::Status::Failure); });
       status = BT::NodeStatus::FAILURE;
     }
     is_ending_ = root.status() != status;
@@ -639,8 +656,8 @@ class Hub : public std::enable_shared_from_this<Hub> {
 
   struct Pending {
     std::size_t node;
-    Status before;
-    Status after;
+    monitor::Status before;
+    monitor::Status after;
   };
   template <class Chosen_>
   void tell_pending_where(Chosen_ is_chosen) {
@@ -673,7 +690,7 @@ class Hub : public std::enable_shared_from_this<Hub> {
   std::vector<Hearer*> hearers_;
   std::vector<Pending> pending_;
   std::thread::id ticking_thread_;
-  Status answer_ = Status::Running;  // of the tick that ends
+  monitor::Status answer_ = monitor::Status::Running;  // of the tick that ends
   bool is_in_tick_ = false;
   bool is_ending_ = false;  // with the change of the top node's status
   bool is_in_call_ = false;
@@ -694,8 +711,8 @@ class Observer final : private Hearer {
  public:
   // Throws WrongTable for a text that is no table, WrongTree where another tree
   // runs than the one of the table, std::runtime_error where the log cannot be
-  // written, std::invalid_argument for a Verdict node of a rule that the table
-  // does not have. Not while the tree is being ticked.
+  // written, std::invalid_argument for a Verdict node of a rule that
+  // the table does not have. Not while the tree is being ticked.
   Observer(BT::Tree& tree, std::string_view table,
            const ObserverOptions& options = {})
       : tree_(tree),
@@ -708,12 +725,12 @@ class Observer final : private Hearer {
     for (const monitor::Table::Entry& entry : table_.entries) {
       boards_.push_back(board_of(entry.node));
     }
-    monitor_.on_verdict = [this](std::size_t rule, Verdict verdict) {
+    monitor_.on_verdict = [this](std::size_t rule, monitor::Verdict verdict) {
       decided_.push_back({rule, verdict, monitor_.ticks()});
       has_decided_.store(true, std::memory_order_release);
     };
     for (std::size_t r = 0; r < monitor_.rule_count(); ++r) {
-      if (monitor_.verdict(r) != Verdict::Open) {
+      if (monitor_.verdict(r) != monitor::Verdict::Open) {
         decided_.push_back({r, monitor_.verdict(r), 0});
         has_decided_ = true;
       }
@@ -768,13 +785,15 @@ class Observer final : private Hearer {
   const std::string& rule_name(std::size_t rule) const {
     return table_.automata.at(rule).name;
   }
-  Verdict verdict(std::size_t rule) const { return monitor_.verdict(rule); }
-  Verdict verdict(std::string_view rule) const {
+  monitor::Verdict verdict(std::size_t rule) const {
+    return monitor_.verdict(rule);
+  }
+  monitor::Verdict verdict(std::string_view rule) const {
     return monitor_.verdict(number_of(rule));
   }
   bool is_violated() const {
     for (std::size_t r = 0; r < rule_count(); ++r) {
-      if (verdict(r) == Verdict::Violated) return true;
+      if (verdict(r) == monitor::Verdict::Violated) return true;
     }
     return false;
   }
@@ -810,7 +829,8 @@ class Observer final : private Hearer {
     const auto board = tree_.rootBlackboard();
     return with(rule, [&](Policy& policy) {
       policy.callbacks.push_back([board, key, value](const Decision& decided) {
-        if (decided.verdict == Verdict::Violated) board->set(key, value);
+        if (decided.verdict == monitor::Verdict::Violated)
+          board->set(key, value);
       });
     });
   }
@@ -831,7 +851,7 @@ class Observer final : private Hearer {
   };
   struct Decided {
     std::size_t rule;
-    Verdict verdict;
+    monitor::Verdict verdict;
     std::uint64_t tick;
   };
   // What happened last, for the evidence.
@@ -840,7 +860,7 @@ class Observer final : private Hearer {
     std::uint64_t tick = 0;
     std::size_t node = 0;
     Kind kind = Ticked;
-    Status status = Status::Idle;
+    monitor::Status status = monitor::Status::Idle;
   };
   static constexpr std::size_t kRemembered = 16;
 
@@ -929,11 +949,11 @@ class Observer final : private Hearer {
       condition->watched_.compare_exchange_strong(own, nullptr);
     }
   }
-  static Verdict verdict_called(std::string_view word) {
-    if (word == "open") return Verdict::Open;
-    if (word == "satisfied") return Verdict::Satisfied;
-    if (word == "violated") return Verdict::Violated;
-    if (word == "excluded") return Verdict::Excluded;
+  static monitor::Verdict verdict_called(std::string_view word) {
+    if (word == "open") return monitor::Verdict::Open;
+    if (word == "satisfied") return monitor::Verdict::Satisfied;
+    if (word == "violated") return monitor::Verdict::Violated;
+    if (word == "excluded") return monitor::Verdict::Excluded;
     throw std::invalid_argument("btcheck: `" + std::string(word) +
                                 "` is no verdict; write open, satisfied, "
                                 "violated or excluded");
@@ -945,25 +965,15 @@ class Observer final : private Hearer {
     heading.most_bytes = options.log_bytes;
     heading.most_files = options.log_files;
     heading.engine = BTCHECK_ENGINE;
-    heading.xml = engine::xml_of(tree_);
+    heading.xml = engine::XmlOf<BT::Tree>::text(tree_);
     for (const BT::TreeNode* node : hub_->nodes()) {
-      heading.uids.push_back(uid_of(*node, heading.uids.size() + 1));
+      heading.uids.push_back(engine::uid_of(*node, heading.uids.size() + 1));
     }
     for (const monitor::Table::Entry& entry : table_.entries) {
       heading.entries.push_back(entry.name);
     }
     log_ = std::make_unique<MarkedLog>(std::move(heading));
   }
-  static std::uint16_t uid_of([[maybe_unused]] const BT::TreeNode& node,
-                              [[maybe_unused]] std::size_t number) {
-#if BTCHECK_ENGINE == 4
-    return node.UID();
-#else
-    return static_cast<std::uint16_t>(
-        number);  // its own go on from tree to tree
-#endif
-  }
-
   // --- Hearer ---
 
   void tick_begins(bool is_wake_up) override {
@@ -971,7 +981,7 @@ class Observer final : private Hearer {
     if (log_) log_->begin_tick(is_wake_up);
     monitor_.begin_tick();
   }
-  void tick_ends(Status answer) override {
+  void tick_ends(monitor::Status answer) override {
     look_at_entries();
     if (log_) log_->end_tick(answer);
     remember(0, Happened::TickEnded, answer);
@@ -980,7 +990,7 @@ class Observer final : private Hearer {
   void tick_is_left() override {
     look_at_entries();
     if (log_) log_->leave_tick();
-    remember(0, Happened::Left, Status::Idle);
+    remember(0, Happened::Left, monitor::Status::Idle);
     monitor_.leave_tick();
   }
   void begins(std::size_t node) override {
@@ -988,15 +998,16 @@ class Observer final : private Hearer {
     if (log_) log_->begin_node(node);
     monitor_.begin_node(node);
   }
-  void answers(std::size_t node, Status status) override {
+  void answers(std::size_t node, monitor::Status status) override {
     look_at_entries();
     if (log_) log_->answer(node, status);
     remember(node, Happened::Answered, status);
     monitor_.answer(node, status);
   }
-  void changes(std::size_t node, Status before, Status after) override {
+  void changes(std::size_t node, monitor::Status before,
+               monitor::Status after) override {
     if (log_) log_->change(node, before, after);
-    if (before == Status::Running && after == Status::Idle) {
+    if (before == monitor::Status::Running && after == monitor::Status::Idle) {
       remember(node, Happened::Halted, after);
     }
     monitor_.change(node, before, after);
@@ -1005,7 +1016,8 @@ class Observer final : private Hearer {
   void look_at_entries() {
     for (std::size_t i = 0; i < boards_.size(); ++i) {
       if (!boards_[i]) continue;
-      EntryValue value = engine::value_in(*boards_[i], table_.entries[i].key);
+      monitor::EntryValue value =
+          engine::value_in(*boards_[i], table_.entries[i].key);
       if (value == last_values_[i]) continue;
       if (log_) log_->entry(i, value);
       monitor_.set_entry(i, value);
@@ -1013,7 +1025,7 @@ class Observer final : private Hearer {
     }
   }
 
-  void remember(std::size_t node, Happened::Kind kind, Status status) {
+  void remember(std::size_t node, Happened::Kind kind, monitor::Status status) {
     happened_[happened_count_++ % kRemembered] = {monitor_.ticks(), node, kind,
                                                   status};
   }
@@ -1056,7 +1068,7 @@ class Observer final : private Hearer {
   }
   void tell(const Decided& decided) {
     const Policy& policy = policies_[decided.rule];
-    const bool is_violated = decided.verdict == Verdict::Violated;
+    const bool is_violated = decided.verdict == monitor::Verdict::Violated;
     if (policy.callbacks.empty() &&
         !(is_violated &&
           (policy.is_logged || policy.is_halting || policy.is_thrown))) {
@@ -1092,7 +1104,7 @@ class Observer final : private Hearer {
   std::vector<Decided> decided_;  // and not told yet
   std::atomic<bool> has_decided_{false};
   std::vector<BT::Blackboard::Ptr> boards_;  // by entry
-  std::vector<EntryValue> last_values_;
+  std::vector<monitor::EntryValue> last_values_;
   std::vector<VerdictCondition*> borrowers_;
   std::unique_ptr<MarkedLog> log_;
   std::array<Happened, kRemembered> happened_{};

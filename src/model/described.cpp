@@ -81,7 +81,7 @@ class NodeDescriber {
   const btcpp::NodeTypeRow* row_of_node() const {
     return node_.kind == BtcppKind::SubTree
                ? nullptr
-               : btcpp::known_type(document_.release, node_.id);
+               : btcpp::known_type(document_.release, node_);
   }
 
   void take_model(const BtcppModel& model) {

@@ -682,11 +682,21 @@ const NodeTypeRow* nav2_type(std::string_view id) { return row_of(kNav2, id); }
 
 std::span<const NodeTypeRow> nav2_types() { return kNav2; }
 
+const NodeTypeRow* observer_type(const BtcppNode& node) {
+  const bool is_asking = find_attribute(node.ports, "rule") != nullptr;
+  return is_asking ? row_of(kObserver, node.id) : nullptr;
+}
+
 const NodeTypeRow* known_type(BtcppRelease release, std::string_view id) {
   const NodeTypeRow* row = builtin_type(release, id);
   if (row != nullptr || release == BtcppRelease::PyTrees) return row;
-  row = nav2_type(id);
-  return row != nullptr ? row : row_of(kObserver, id);
+  return nav2_type(id);
+}
+
+const NodeTypeRow* known_type(BtcppRelease release, const BtcppNode& node) {
+  const NodeTypeRow* row = known_type(release, node.id);
+  if (row != nullptr || release == BtcppRelease::PyTrees) return row;
+  return observer_type(node);
 }
 
 BtcppRelease dialect_of(Profile profile) {
@@ -739,13 +749,9 @@ const NodeTypeRow* engine_row(BtcppRelease release, const BtcppNode& node) {
       release == BtcppRelease::V3 && first_release(node.id) > kNewestRelease3;
   if (is_own || node.kind == BtcppKind::SubTree) return nullptr;
   const NodeTypeRow* row =
-      known_type(is_of_py_trees ? release : BtcppRelease::V4, node.id);
+      known_type(is_of_py_trees ? release : BtcppRelease::V4, node);
   if (row == nullptr && !is_of_py_trees) row = row_of(kOnlyVersion3, node.id);
   if (row == nullptr) return nullptr;
-  const bool is_verdict = row == kObserver.data();
-  if (is_verdict && find_attribute(node.ports, "rule") == nullptr) {
-    return nullptr;
-  }
   // A model may make an Action or a Condition of a leaf of Nav2. A condition
   // that may run is an Action to all but its author.
   const bool is_plain =
@@ -791,7 +797,7 @@ std::optional<PortFacts> facts_of(const BtcppDocument& document,
     if (found == nullptr) return std::nullopt;
     return PortFacts{found->direction, type_named(found->type)};
   }
-  if (type == nullptr) type = known_type(document.release, node.id);
+  if (type == nullptr) type = known_type(document.release, node);
   if (type == nullptr && document.release == BtcppRelease::PyTrees) {
     return std::nullopt;
   }

@@ -240,8 +240,13 @@ KeyedEntry keyed_by(BtcppRelease release, std::string_view id);
 // branches, so a node may have ports that the row does not list.
 const NodeTypeRow* nav2_type(std::string_view id);
 
-// One of the two.
+// The node that btcheck/observer.hpp registers, or nullptr.
+const NodeTypeRow* observer_type(const BtcppNode& node);
+
+// A built-in type, or one of Nav2.
 const NodeTypeRow* known_type(BtcppRelease release, std::string_view id);
+// Or that of the observer.
+const NodeTypeRow* known_type(BtcppRelease release, const BtcppNode& node);
 
 // The type of another library, where the node is written as that one has it and
 // has so many children.

@@ -417,6 +417,7 @@ class TreeReader {
     const NodeTypeRow* builtin = builtin_type(release(), node.id);
     const BtcppModel* model = context_.document.model(node.id);
     const NodeTypeRow* nav2 = nav2_type(node.id);
+    if (nav2 == nullptr) nav2 = observer_type(node);
     const std::size_t count = element.children.size();
     const LibraryType* library = library_type_of(node, count);
     node.is_known = builtin != nullptr || model != nullptr || nav2 != nullptr ||

@@ -150,7 +150,7 @@ class NodeCheck {
         port.name == "return_on_mismatch" || port.name == "then_skip";
     const bool is_read_late =
         is_in(releases::kReadsLiteralsLate) &&
-        (has_default || known_type(document_.release, node_.id) == nullptr);
+        (has_default || known_type(document_.release, node_) == nullptr);
     if (is_read_late) {
       findings_.warning(port.place, std::move(finding));
     } else {
@@ -261,7 +261,7 @@ class NodeCheck {
   }
 
   void check_mandatory_ports() {
-    const NodeTypeRow* type = known_type(document_.release, node_.id);
+    const NodeTypeRow* type = known_type(document_.release, node_);
     if (type == nullptr) return;
     for (const PortRow& row : type->ports) {
       if (row.need == Need::Optional || !row.in.has(document_.engine())) {

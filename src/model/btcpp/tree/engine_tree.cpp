@@ -44,7 +44,7 @@ bool has_literal_default(const BtcppNode& leaf) {
 // stand until it is reset, or a condition that answers anew on every tick.
 LeafContract leaf_contract(BtcppRelease release, const BtcppNode& leaf) {
   LeafContract contract;
-  if (const NodeTypeRow* row = known_type(release, leaf.id)) {
+  if (const NodeTypeRow* row = known_type(release, leaf)) {
     const LeafAnswers& answers = row->answers;
     contract.may_succeed = answers.may_succeed;
     contract.may_fail = answers.may_fail && !has_literal_default(leaf);

@@ -1,0 +1,3 @@
+# SPDX-License-Identifier: MIT
+def message_to_ordereddict(message):
+    return dict(message.fields)
