@@ -243,6 +243,19 @@ TEST_CASE("choices that there are not are refused by name") {
         "error[BT0001]: --profile btcpp-5: no such profile");
   CHECK(refused({"t.xml", "--tick-ms", "0"}) ==
         "error[BT0001]: --tick-ms 0: not a number that it takes");
+  CHECK(refused({"trace", "r.btlog", "--to", "text", "--tick-gap", "0"}) ==
+        "error[BT0001]: --tick-gap 0: not a number that it takes");
+  CHECK(refused({"t.xml", "--tick-gap", "5"}) ==
+        "error[BT0001]: --tick-gap needs --from LOG@TICK");
+  CHECK(refused({"t.xml", "--from", "r.btlog", "--tick-gap", "5"}) ==
+        "error[BT0001]: --tick-gap needs --from LOG@TICK");
+  CHECK(refused({"conform", "r.btlog", "--tick-gap", "5"}) ==
+        "error[BT0001]: --tick-gap needs --learn-leaves");
+  CHECK(refused({"monitor", "t.xml", "--prop", "r.ltl", "--tick-gap", "5"})
+            .starts_with("error[BT0001]: "));
+  CHECK(options_of({"t.xml", "--from", "r.btlog@3", "--tick-gap", "5"})
+            .tick_gap == 5);
+  CHECK(options_of({"trace", "r.btlog", "--view", "--prop", "r.ltl"}).view);
   const Options of_xml =
       options_of({"t.xml", "--profile", "nav2-humble", "--tick-ms", "10",
                   "--models", "a.xml", "--models", "b.xml", "--loop",

@@ -65,6 +65,13 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
       line.at(2) = "robot.mcap";
     }
   }
+  if (option.name == "--tick-gap") {
+    if (command.command == Command::Conform) {
+      line.emplace_back("--learn-leaves=new.leaves");
+    } else if (command.command != Command::Trace) {
+      line.emplace_back("--from=robot.btlog@1");
+    }
+  }
   line.emplace_back(option.name);
   if (option.may_stand_alone) {
     line.back() += '=' + value;

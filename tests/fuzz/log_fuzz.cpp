@@ -28,7 +28,7 @@ void check_log(const BehaviorLog& log) {
     require(transition.after <= LogStatus::Skipped);
   }
   // As a run: every record is told, and time never goes back.
-  LogPlayer player(log, 1'000'000'000);
+  LogPlayer player(log, {.tick_time = 1'000'000'000});
   int time = 0;
   std::size_t states = 0;
   player.play([&] {

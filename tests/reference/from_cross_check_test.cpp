@@ -356,7 +356,7 @@ TEST_CASE("from where a log ends all answers are those of the states there") {
     const auto states =
         states_after("r.btlog", one->tree, one->network,
                      recorded_tree(one->tree, {"t.btf", one->text}), *log.value,
-                     one->tick, Limits{});
+                     {}, one->tick, Limits{});
     REQUIRE(states.value);
     std::set<std::size_t> starts;
     for (const Valuation& state : *states.value) {

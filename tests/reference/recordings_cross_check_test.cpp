@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -187,7 +188,7 @@ struct Said {
 
 std::vector<Said> said_in(const BehaviorLog& log) {
   std::vector<Said> said;
-  TickCounter ticks(log, 100'000);
+  TickCounter ticks(log, {});
   for (const LogTransition& record : log.transitions) {
     const std::int64_t tick = ticks.tick_at(record.time);
     const bool is_over =
@@ -423,6 +424,8 @@ TEST_CASE("what is said of a recording is so of the run") {
   std::mt19937 random(shifted_seed(21));
   int decided = 0;
   int agreed = 0;
+  int timelessly = 0;
+  int guessed = 0;
   const int cases = by_effort(300, 2000);
   for (int i = 0; i < cases; ++i) {
     const bool is_xml = i % 3 == 2;
@@ -463,7 +466,7 @@ TEST_CASE("what is said of a recording is so of the run") {
       if (!log.value) continue;
       CAPTURE(log_text(*log.value));
       const auto told =
-          watch_log("r.btlog", *log.value, 100'000, *file.value, source);
+          watch_log("r.btlog", *log.value, {}, *file.value, source);
       if (!told.value) {  // side by side
         CHECK(told.diagnostics.at(0).code == "BT1805");
         continue;
@@ -476,10 +479,33 @@ TEST_CASE("what is said of a recording is so of the run") {
         CHECK(name_of(outlook) == name_of(real[r]));
         ++agreed;
       }
+      // The same as a robot logs it, with times that say nothing of ticks.
+      BehaviorLog timeless = *log.value;
+      timeless.begin = 1;
+      std::int64_t time = 0;
+      for (LogTransition& record : timeless.transitions) {
+        constexpr std::array<std::int64_t, 4> kPauses = {0, 3, 4'000, 90'000};
+        record.time = time += kPauses[random() % kPauses.size()];
+      }
+      const auto without =
+          watch_log("r.btlog", timeless, {}, *file.value, source);
+      REQUIRE(without.value);
+      for (std::size_t r = 0; r < real.size(); ++r) {
+        CAPTURE(r);
+        const WatchedRule& rule = without.value->rules[r];
+        guessed += rule.guess == TickGuess::Begin;
+        if (rule.outlook == Outlook::Open) continue;
+        CHECK(name_of(rule.outlook) == name_of(real[r]));
+        ++timelessly;
+      }
     }
   }
-  MESSAGE("of " << decided << " decided rules the log decides " << agreed);
+  MESSAGE("of " << decided << " decided rules the log decides " << agreed
+                << ", without ticks " << timelessly << "; " << guessed
+                << " rest on where ticks begin");
   CHECK_COVERED(agreed > decided / 2);
+  CHECK_COVERED(timelessly > decided / 8);
+  CHECK_COVERED(guessed > 0);
 }
 
 // --- From where a run has come to

@@ -152,6 +152,7 @@ const std::map<std::string_view, std::string> kValues = {
     {"--profile", "--profile btcpp-3.8"},
     {"--against", "--against nav2-jazzy"},
     {"--tick-ms", "--tick-ms 20"},
+    {"--tick-gap", "--tick-gap 5"},
     {"--models", "--models models.xml"},
     {"--leaves", "--leaves t.leaves"},
     {"--main-tree", "--main-tree U"},

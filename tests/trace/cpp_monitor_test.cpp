@@ -173,7 +173,7 @@ bool is_below(const BehaviorLog& log, std::uint16_t uid, std::uint16_t above) {
 BehaviorLog with_late_parents(BehaviorLog log) {
   std::vector<LogTransition> records;
   std::vector<LogTransition> held;  // outermost first
-  TickCounter ticks(log, kTickTime);
+  TickCounter ticks(log, {.tick_time = kTickTime});
   std::int64_t tick = 0;
   for (LogTransition record : log.transitions) {
     const std::int64_t now = ticks.tick_at(record.time);
@@ -209,7 +209,7 @@ BehaviorLog with_late_parents(BehaviorLog log) {
 
 std::string events_of(const BehaviorLog& log) {
   std::string text;
-  TickCounter ticks(log, kTickTime);
+  TickCounter ticks(log, {.tick_time = kTickTime});
   std::int64_t tick = 0;
   bool has_ended = false;
   for (const LogTransition& record : log.transitions) {
@@ -258,7 +258,7 @@ TEST_CASE("monitors as C++ say of logs what trace says") {
       REQUIRE(log.nodes[n].uid == n + 1);
     }
     const auto told =
-        watch_log_as(nodes, "a.btlog", log, kTickTime, *rules.value, source);
+        watch_log_as(nodes, "a.btlog", log, {}, *rules.value, source);
     REQUIRE(told.value);
     std::string outlooks;
     for (const WatchedRule& rule : told.value->rules) {
@@ -269,8 +269,8 @@ TEST_CASE("monitors as C++ say of logs what trace says") {
     expected += outlooks + outlooks + outlooks;
     for (const BehaviorLog* respelt : {&simple, &late}) {
       CAPTURE(respelt == &late);
-      const auto same = watch_log_as(nodes, "a.btlog", *respelt, kTickTime,
-                                     *rules.value, source);
+      const auto same =
+          watch_log_as(nodes, "a.btlog", *respelt, {}, *rules.value, source);
       REQUIRE(same.value);
       for (std::size_t i = 0; i < same.value->rules.size(); ++i) {
         CAPTURE(i);

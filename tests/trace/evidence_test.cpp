@@ -68,7 +68,7 @@ std::string learned(const std::vector<BehaviorLog>& logs) {
     const auto nodes =
         LoggedNodes::match(log, *tree.value, recorded_tree(*tree.value, input));
     REQUIRE(nodes.value);
-    evidence.add(log, *nodes.value, 100'000);
+    evidence.add(log, *nodes.value, {});
   }
   const std::string text = evidence.leaves_text();
   return text.substr(text.find("(defaction"));

@@ -95,11 +95,11 @@ TEST_CASE("a log that grows by any bytes is the run of the whole log") {
   for (const char* name : {"btcpp4.10_sample.btlog", "bt_trace1.fbl"}) {
     CAPTURE(name);
     const std::string bytes = data_file(name);
-    LiveLog whole(name, 100'000);
+    LiveLog whole(name, {});
     REQUIRE(whole.take(bytes).empty());
     const Told expected = all_of(whole.run());
     REQUIRE(expected.states.size() > 10);
-    LiveLog growing(name, 100'000);
+    LiveLog growing(name, {});
     std::size_t refused = 0;
     LiveRun::Place place{1, 0};
     Told told;
@@ -132,7 +132,7 @@ TEST_CASE("a log that grows by any bytes is the run of the whole log") {
 
 TEST_CASE("a log that is begun anew is a run that begins anew") {
   const std::string bytes = data_file("btcpp4.10_sample.btlog");
-  LiveLog log("a.btlog", 100'000);
+  LiveLog log("a.btlog", {});
   REQUIRE(log.take(bytes).empty());
   LiveRun::Place place{1, 0};
   Told told;
@@ -147,7 +147,7 @@ TEST_CASE("a log that is begun anew is a run that begins anew") {
 
 TEST_CASE("a pause of an hour is one state") {
   std::string bytes = data_file("btcpp4.10_sample.btlog");
-  LiveLog log("a.btlog", 100'000);
+  LiveLog log("a.btlog", {});
   REQUIRE(log.take(bytes).empty());
   const std::size_t before = all_of(log.run()).states.size();
   // The last record comes an hour later: 36,000 ticks.
@@ -155,7 +155,7 @@ TEST_CASE("a pause of an hour is one state") {
   for (std::size_t i = 0; i < 6; ++i, time >>= 8) {
     bytes[bytes.size() - 9 + i] = static_cast<char>(time & 0xff);
   }
-  LiveLog paused("a.btlog", 100'000);
+  LiveLog paused("a.btlog", {});
   REQUIRE(paused.take(bytes).empty());
   const std::size_t after = all_of(paused.run()).states.size();
   CHECK(after >= before);
@@ -164,7 +164,7 @@ TEST_CASE("a pause of an hour is one state") {
 
 TEST_CASE("a log that is damaged stays as it was") {
   const std::string bytes = data_file("btcpp4.10_sample.btlog");
-  LiveLog log("a.btlog", 100'000);
+  LiveLog log("a.btlog", {});
   REQUIRE(log.take(bytes).empty());
   const Told before = all_of(log.run());
   const auto flaws = log.take(bytes + std::string(9, '\xff'));

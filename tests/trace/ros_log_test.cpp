@@ -195,8 +195,8 @@ TEST_CASE("a rule about a node that was not told apart stays open") {
   const auto outlooks = [&](RosForm form) {
     const auto log = model.with_places(
         *read_log("a.mcap", mcap_of({topic_of(twins(), form)})).value);
-    const auto report = watch_log_as(model.run, "a.mcap", *log.value, 100'000,
-                                     *rules.value, source);
+    const auto report = watch_log_as(model.run, "a.mcap", *log.value,
+                                     {.tick_gap = 5'000}, *rules.value, source);
     REQUIRE(report.value);
     std::vector<Outlook> found;
     for (const auto& rule : report.value->rules) found.push_back(rule.outlook);
@@ -580,8 +580,9 @@ TEST_CASE("an oracle says of events what is said of their recording") {
       REQUIRE(rules.value);
       const SourceText source("r.ltl", text);
       // Its ticks take 10 ms; a message is a tick to an oracle.
-      const auto report = watch_log_as(model.run, "a", *recorded.value, 10'000,
-                                       *rules.value, source);
+      const auto report =
+          watch_log_as(model.run, "a", *recorded.value, {10'000, true, 5'000},
+                       *rules.value, source);
       REQUIRE(report.value);
       std::vector<std::string> violated;
       for (const WatchedRule& rule : report.value->rules) {
@@ -590,7 +591,7 @@ TEST_CASE("an oracle says of events what is said of their recording") {
       decided += violated.size();
       std::vector<OracleRules> asked;
       asked.push_back({std::move(*rules.value), source});
-      auto oracle = Oracle::make(model.tree, model.run, asked, 10'000);
+      auto oracle = Oracle::make(model.tree, model.run, asked, {10'000, true});
       REQUIRE(oracle.value);
       for (const std::string& line : lines_of(log, has_uids)) {
         const auto answer = (*oracle.value)->answer(line);
@@ -612,7 +613,7 @@ TEST_CASE("no line makes an oracle stop") {
   std::vector<OracleRules> rules;
   rules.push_back(
       {*read_properties("r.ltl", text).value, SourceText("r.ltl", text)});
-  auto oracle = Oracle::make(model.tree, model.run, rules, 100'000);
+  auto oracle = Oracle::make(model.tree, model.run, rules, {});
   REQUIRE(oracle.value);
   std::mt19937 random(3);
   std::vector<std::string> lines = lines_of(twins(), true);

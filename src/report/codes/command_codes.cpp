@@ -300,6 +300,38 @@ constexpr CodeRow kCommandCodes[] = {
          "or --memory was reached, or by a signal; there is no verdict.",
      .help = "Give more time or memory, or record the topic of the tree "
              "alone."},
+    {.code = "BT1312",
+     .summary = "marks of another log",
+     .description =
+         "Beside a log lies a file of marks, which btcheck::observer writes "
+         "with it. This one was written with another log: it began at another "
+         "time, or its tree is another.",
+     .help = "Keep a log and its marks together, or remove the marks.",
+     .example =
+         {.tree = kOneAction,
+          .script = "a: success",
+          .command =
+              "simulate tree.btf --script script.txt -o run.itf.json\ntrace "
+              "run.itf.json --to btlog -o robot.btlog\n"
+              "$ { printf 'btcheck-marks\\1\\4'; head -c 17 /dev/zero; } > "
+              "robot.btlog.marks\ntrace robot.btlog --to text"}},
+    {.code = "BT1313",
+     .summary = "events of a log that were lost",
+     .description =
+         "The disk was too slow for btcheck::observer, which never lets a "
+         "robot wait. What comes later is not known to follow what was before, "
+         "so the log is read up to there.",
+     .help = "Write the log to a faster disk.",
+     .severity = Severity::Warning,
+     .example =
+         {.command =
+              R"($ xml='<root BTCPP_format="4"><BehaviorTree ID="M" )"
+              R"(_fullpath=""><A _uid="1"/></BehaviorTree></root>'; )"
+              R"({ printf 'BTCPP4-FileLogger2\1\134\0\0\0%s' "$xml"; )"
+              R"(head -c 8 /dev/zero; } > robot.btlog; )"
+              R"({ printf 'btcheck-marks\1\4'; head -c 8 /dev/zero; )"
+              R"(printf '\165\222\321\026\044\232\337\364\0\13'; } > robot.btlog.marks)"
+              "\ntrace robot.btlog --to text"}},
     {.code = "BT1401",
      .summary = "a script names a leaf that does not exist",
      .description = "Before the colon stands the name of a leaf or of a "

@@ -74,6 +74,7 @@ std::vector<Diagnostic> LiveLog::take(std::string_view bytes,
   if (now.marks) {
     add_marks(std::move(now));
   } else {
+    log_.begin = now.begin;  // of a .fbl, that of its first record
     const std::vector<LogTransition> all = std::move(now.transitions);
     add(std::span(all).subspan(log_.transitions.size()));
   }

@@ -443,7 +443,7 @@ bool LogPlayer::is_below(std::size_t node, std::size_t above) const {
 // What was ticked without a record, and has none for its answer either, was
 // skipped, or has answered what it had: its parent has gone on.
 bool LogPlayer::let_go_below(std::size_t node) {
-  const auto ended = std::partition(
+  const auto ended = std::stable_partition(
       called_.begin(), called_.end(),
       [&](std::size_t n) { return n == node || !is_below(n, node); });
   const std::vector<std::size_t> below(ended, called_.end());

@@ -85,7 +85,12 @@ bool LogPlayer::hear_answer(std::size_t node, LogStatus status) {
     return false;
   }
   has_said_ = {node, status};
-  return answer(node, status);
+  if (!let_go_below(node)) return false;
+  std::erase(called_, node);
+  outcome_[node] = status;
+  if (status != LogStatus::Skipped) state_.statuses[node] = word_of(status);
+  return reach(node, word_of(status), phase_of(status)) &&
+         rest(node, phase_of(status));
 }
 
 // A record: of an answer that was heard, of a status that a node sets within

@@ -306,10 +306,9 @@ void RecordedWatch::note_unseen(std::size_t node, Unseen unseen,
                           (unseen != Unseen::Called || before != "idle");
   const bool may_skip = unseen == Unseen::Skipped ||
                         (unseen == Unseen::Called && before != "running");
-  if (unseen != Unseen::Skipped) {
-    also("tick_node");
-    if (const auto caller = network.node_caller[node]) any_of(*caller);
-  }
+  if (unseen != Unseen::Skipped) also("tick_node");
+  const auto caller = network.node_caller[node];
+  if (unseen == Unseen::Called && caller) any_of(*caller);
   if (may_answer) answers(before);
   if (may_skip) answers("skipped");
   also("done");
@@ -433,6 +432,16 @@ bool RecordedWatch::take_answers(const Moment& moment, bool is_possible) {
   return is_possible && before != answers_;
 }
 
+// Whether a condition asks for what is remembered of a tick, or of the past.
+bool RecordedWatch::remembers(const Expression& condition) const {
+  return std::ranges::any_of(condition.terms(), [&](const Term& term) {
+    if (term.operation != Operation::Variable) return false;
+    const VariableId variable{static_cast<std::uint32_t>(term.operand)};
+    const std::string_view kind = meaning(variable).first;
+    return kind == "Answer" || kind == "Remembered";
+  });
+}
+
 // One more label of a rule's run; true where more ways are followed.
 bool RecordedWatch::read(std::size_t rule, bool has_passed, bool is_possible) {
   Seen& seen = seen_[rule];
@@ -443,7 +452,10 @@ bool RecordedWatch::read(std::size_t rule, bool has_passed, bool is_possible) {
   for (std::size_t p = 0; p < monitor.propositions.size(); ++p) {
     const Truth now = truth(monitor.propositions[p].expression);
     if (now == Truth::Yes) label |= PropositionSet{1} << p;
-    if (now == Truth::Unknown) unknown |= PropositionSet{1} << p;
+    if (now != Truth::Unknown) continue;
+    unknown |= PropositionSet{1} << p;
+    seen.has_ways |=
+        has_doubts_ && remembers(monitor.propositions[p].expression);
   }
   seen.has_unknown |= unknown != 0;
   const std::size_t before = seen.run.ways();
@@ -467,6 +479,7 @@ bool RecordedWatch::take(const Moment& moment, bool is_possible) {
   bool is_more = take_answers(moment, is_possible);
   for (const auto& [variable, value] : moment.others) may_be(variable, value);
   is_more |= note_past(moment.ends_tick, is_possible);
+  has_doubts_ |= is_possible && is_more;
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     is_more |= read(i, moment.has_passed, is_possible);
   }

@@ -115,6 +115,7 @@ class RecordedWatch {
   bool take(const Moment& moment, bool is_possible);
   bool take_answers(const Moment& moment, bool is_possible);
   bool note_past(bool is_tick_end, bool is_possible);
+  bool remembers(const Expression& condition) const;
   bool read(std::size_t rule, bool has_passed, bool is_possible);
   void may_be(VariableId variable, int value);
   Truth truth(const Expression& expression) const;
@@ -136,6 +137,7 @@ class RecordedWatch {
   std::vector<VariableId> open_;
   std::vector<std::string> locations_;  // of the state before
   std::vector<bool> has_ended_tick_;    // by node, of roots: in that state
+  bool has_doubts_ = false;  // what is remembered depends on what may not be
   int time_ = 0;
   std::size_t states_ = 0;
 };
