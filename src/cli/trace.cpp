@@ -3,13 +3,17 @@
 // `btcheck trace FILE --to FORMAT`: converts a run that was written before. An
 // ITF file of btcheck becomes any format, and so does a trace of LTSmin, when
 // it has been executed again; a log of BehaviorTree.CPP or Nav2 becomes text,
-// or is shown while it is written.
+// with the marks of btcheck::observer any format, or is shown while it is
+// written.
 #include "cli/commands.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "check/check.hpp"
 #include "cli/console/console.hpp"
@@ -20,10 +24,13 @@
 #include "cli/view.hpp"
 #include "pins/model.hpp"
 #include "pins/trace.hpp"
+#include "text/budget.hpp"
 #include "text/diagnostic.hpp"
 #include "trace/formats/recordings.hpp"
 #include "trace/formats/text.hpp"
 #include "trace/logs/behavior_log.hpp"
+#include "trace/logs/log_run.hpp"
+#include "trace/logs/marks.hpp"
 #include "trace/pictures/pictures.hpp"
 #include "trace/run/itf.hpp"
 #include "trace/run/record.hpp"
@@ -107,20 +114,60 @@ Result<std::string> written(const std::string& file, const RecordedRun& run,
   return {text_in(options.trace.format, run, *at, detail), {}};
 }
 
+// All states of a log whose ticks and answers are known; nothing where they are
+// too many for one run.
+std::optional<RecordedRun> run_of_log(const std::string& file,
+                                      const BehaviorLog& log,
+                                      const LogReading& reading) {
+  constexpr std::size_t kMostCells = std::size_t{1}
+                                     << 22;  // states times nodes
+  LogPlayer player(log, reading);
+  RecordedRun run = player.heading();
+  run.tree = file;
+  run.property = log.tree.empty() ? "log" : log.tree;
+  run.formula = "a log of BehaviorTree.CPP; no property is checked";
+  run.verdict = "LOG";
+  bool is_small = true;
+  player.play([&] {
+    ask_budget();
+    run.states.push_back(player.state());
+    is_small = run.states.size() * run.nodes.size() <= kMostCells;
+    return is_small;
+  });
+  return is_small ? std::optional(std::move(run)) : std::nullopt;
+}
+
 Result<std::string> converted_log(const InputFile& file,
                                   const Options& options) {
-  const TraceFormat format = options.trace.format;
-  if (format != TraceFormat::Text) {
-    return {std::nullopt,
-            {file_error("BT1306", file.name,
-                        "a log of BehaviorTree.CPP can be printed and nothing "
-                        "else",
-                        "write --to text")}};
-  }
   Result<BehaviorLog> read = read_whole_log(
       options, file.name, file.text, {.max_bytes = memory_limit(options)});
   Result<std::string> result{std::nullopt, std::move(read.diagnostics)};
-  if (read.value) result.value = log_text(*read.value, reading_of(options));
+  if (!read.value) return result;
+  const BehaviorLog& log = *read.value;
+  if (options.trace.format == TraceFormat::Text) {
+    result.value = log_text(log, reading_of(options));
+    return result;
+  }
+  if (!log.marks) {
+    result.diagnostics.push_back(file_error(
+        "BT1306", file.name,
+        "a log of changes of status can be printed and nothing else: its ticks "
+        "are not known",
+        "write --to text; what btcheck::observer logs becomes any format "
+        "(docs/robots.md)"));
+    return result;
+  }
+  const auto run = run_of_log(file.name, log, reading_of(options));
+  if (!run) {
+    result.diagnostics.push_back(
+        file_error("BT1306", file.name, "the log is too long for one run",
+                   "write --to text, or log in smaller files: log_bytes of "
+                   "btcheck::ObserverOptions"));
+    return result;
+  }
+  Result<std::string> told = written(file.name, *run, options);
+  std::ranges::move(told.diagnostics, std::back_inserter(result.diagnostics));
+  result.value = std::move(told.value);
   return result;
 }
 

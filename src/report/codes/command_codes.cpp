@@ -235,9 +235,11 @@ constexpr CodeRow kCommandCodes[] = {
     {.code = "BT1306",
      .summary = "a log that can only be printed",
      .description = "A log of BehaviorTree.CPP has the changes of statuses and "
-                    "neither variables nor the automata, so it cannot become a "
-                    "picture or another format.",
-     .help = "Write --to text.",
+                    "neither ticks nor answers, so it cannot become a picture "
+                    "or another format. One with the marks of "
+                    "btcheck::observer can, as far as it is short enough for "
+                    "one run.",
+     .help = "Write --to text, or log with btcheck::observer.",
      .example = {.tree = kOneAction,
                  .rules = "property p expect violated: never a.failure",
                  .command = "tree.btf --prop rules.ltl --trace-dir runs\ntrace "
