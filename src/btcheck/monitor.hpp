@@ -215,8 +215,8 @@ class TableReader {
     Table table;
     if (text_.substr(0, Table::kHeading.size()) != Table::kHeading) {
       throw WrongTable(
-          "btcheck: this is no table of rules; write one: btcheck export TREE "
-          "--prop RULES --to monitor");
+          "btcheck: this is no table of rules; `btcheck export` writes one "
+          "(docs/robots.md)");
     }
     check_fingerprint();
     at_ = Table::kHeading.size();

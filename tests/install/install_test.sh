@@ -66,6 +66,37 @@ ask() {  # ask WORD…: a project that looks for btcheck with these words
   cmake -S asks -B asks-build -DCMAKE_PREFIX_PATH="$folder/alone" >log 2>&1
 }
 why="there is no $folder/alone/lib.*/libbtcheck.a and .*libbtcheck_run.a"
+ask REQUIRED COMPONENTS observer && fail "an observer without an engine"
+tr -s ' \n' ' ' <log | grep -q "no btcheck::observer: BehaviorTree.CPP is not found" ||
+  fail "nothing says that there is no engine"
+# With one: a stand-in, as far as the header hears it.
+mkdir -p engine/lib/cmake/behaviortree_cpp
+printf 'add_library(BT::behaviortree_cpp INTERFACE IMPORTED)\n%s\n' \
+  "target_include_directories(BT::behaviortree_cpp INTERFACE $sources/tests/observer/engine)" \
+  >engine/lib/cmake/behaviortree_cpp/behaviortree_cppConfig.cmake
+cat >asks/observed.cpp <<'END'
+#include <btcheck/observer.hpp>
+int main() {
+  BT::Tree tree;
+  try {
+    btcheck::Observer observer(tree, "");
+  } catch (const btcheck::WrongTable&) {
+    return 0;
+  }
+  return 1;
+}
+END
+cat >asks/CMakeLists.txt <<'END'
+cmake_minimum_required(VERSION 3.16)
+project(asks CXX)
+find_package(btcheck REQUIRED COMPONENTS observer)
+add_executable(observed observed.cpp)
+target_link_libraries(observed PRIVATE btcheck::observer)
+END
+rm -rf asks-build
+cmake -S asks -B asks-build "-DCMAKE_PREFIX_PATH=$folder/alone;$folder/engine" >log 2>&1 &&
+  cmake --build asks-build >log 2>&1 && asks-build/observed ||
+  fail "the observer is not found, or not built"
 ask REQUIRED || fail "the program alone is not found"
 tr -s ' \n' ' ' <log | grep -q "the program alone; no btcheck::btcheck.*$why" ||
   fail "the library is missing, and nothing says so"

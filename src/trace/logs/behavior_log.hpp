@@ -15,26 +15,12 @@
 
 #include "explore/state/limits.hpp"
 #include "text/diagnostic.hpp"
+#include "trace/logs/log_status.hpp"
 #include "trace/logs/marks.hpp"
 
 namespace btcheck {
 
 struct RecordedRun;
-
-// BehaviorTree.CPP's NodeStatus; the numbers stand in files.
-enum class LogStatus : std::uint8_t {
-  Idle,
-  Running,
-  Success,
-  Failure,
-  Skipped
-};
-inline constexpr std::array<std::string_view, 5> kLogStatusNames = {
-    "IDLE", "RUNNING", "SUCCESS", "FAILURE", "SKIPPED"};
-
-constexpr bool is_completed(LogStatus status) {
-  return status == LogStatus::Success || status == LogStatus::Failure;
-}
 
 struct LogNode {
   std::uint16_t uid = 0;

@@ -14,10 +14,10 @@
 
 #include "explore/state/limits.hpp"
 #include "text/diagnostic.hpp"
+#include "trace/logs/log_status.hpp"
 
 namespace btcheck {
 
-enum class LogStatus : std::uint8_t;
 struct BehaviorLog;
 
 // The numbers stand in files.
