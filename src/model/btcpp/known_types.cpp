@@ -445,7 +445,10 @@ constexpr std::array kUndock = {PortRow{"dock_type", kIn, String},
 constexpr std::array kVerdictPorts = {PortRow{"rule", kIn, String, Mandatory},
                                       PortRow{"is", kIn, String}};
 void read_verdict(PortReader& ports, Node& node) {
-  if (ports.text("is") == "open") node.contract.memory = LeafMemory::None;
+  const std::string is = ports.text("is");
+  const bool stays =
+      is.empty() || is == "violated" || is == "satisfied" || is == "excluded";
+  if (!stays) node.contract.memory = LeafMemory::None;
 }
 constexpr std::array kObserver = {
     NodeTypeRow{"Verdict",
