@@ -196,11 +196,9 @@ std::string told(const NamedLog& named, const BehaviorTree& tree,
   };
   std::string text =
       found.refused_answer
-          ? fmt::format(
-                "REFUSED    {}  (tick {}, after {}.{:06} s)\n{}{} answers {}\n",
-                named.name, found.tick, record.time / 1'000'000,
-                record.time % 1'000'000, kIndent, short_name(tree, event.node),
-                status_name(event.status))
+          ? fmt::format("REFUSED    {}  (tick {})\n{}{} answers {}\n",
+                        named.name, found.tick, kIndent,
+                        short_name(tree, event.node), status_name(event.status))
           : fmt::format(
                 "REFUSED    {}  (record {} of {}, after {}.{:06} s)\n"
                 "{}{} {} -> {}\n",

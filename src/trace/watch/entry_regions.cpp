@@ -10,9 +10,9 @@
 #include <set>
 #include <utility>
 
+#include "model/tree/value_words.hpp"
 #include "text/numbers.hpp"
 #include "text/utf8.hpp"
-#include "text/words.hpp"
 
 namespace btcheck {
 namespace {

@@ -18,10 +18,10 @@
 #include <string_view>
 #include <utility>
 
+#include "model/tree/value_words.hpp"
 #include "text/diagnostic.hpp"
 #include "text/numbers.hpp"
 #include "text/utf8.hpp"
-#include "text/words.hpp"
 
 namespace btcheck::btcpp {
 namespace {
