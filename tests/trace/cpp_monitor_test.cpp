@@ -243,6 +243,8 @@ TEST_CASE("monitors as C++ say of logs what trace says") {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "monitor.hpp") << cpp_monitor(*table.value, "");
   std::ofstream(folder.path() / "main.cpp") << kDriver;
+  // A monitor is told the ticks, so the log is read with them.
+  const LogReading reading{kTickTime, true, kTickPause};
   std::string events;
   std::string expected;
   int decided = 0;
@@ -258,7 +260,7 @@ TEST_CASE("monitors as C++ say of logs what trace says") {
       REQUIRE(log.nodes[n].uid == n + 1);
     }
     const auto told =
-        watch_log_as(nodes, "a.btlog", log, {}, *rules.value, source);
+        watch_log_as(nodes, "a.btlog", log, reading, *rules.value, source);
     REQUIRE(told.value);
     std::string outlooks;
     for (const WatchedRule& rule : told.value->rules) {
@@ -269,8 +271,8 @@ TEST_CASE("monitors as C++ say of logs what trace says") {
     expected += outlooks + outlooks + outlooks;
     for (const BehaviorLog* respelt : {&simple, &late}) {
       CAPTURE(respelt == &late);
-      const auto same =
-          watch_log_as(nodes, "a.btlog", *respelt, {}, *rules.value, source);
+      const auto same = watch_log_as(nodes, "a.btlog", *respelt, reading,
+                                     *rules.value, source);
       REQUIRE(same.value);
       for (std::size_t i = 0; i < same.value->rules.size(); ++i) {
         CAPTURE(i);

@@ -438,7 +438,7 @@ bool RecordedWatch::remembers(const Expression& condition) const {
     if (term.operation != Operation::Variable) return false;
     const VariableId variable{static_cast<std::uint32_t>(term.operand)};
     const std::string_view kind = meaning(variable).first;
-    return kind == "Answer" || kind == "Remembered";
+    return kind == "answer" || kind == "remembered";
   });
 }
 
