@@ -96,7 +96,7 @@ Result<std::vector<Hook>> hooks_of(const std::vector<Fault>& faults,
                                    const std::string& robot) {
   Result<std::vector<Hook>> result{std::vector<Hook>(), {}};
   const PropertyFile no_rules;
-  const RecordedRun heading = LogPlayer(log, kTickTime).heading();
+  const RecordedRun heading = LogPlayer(log, LogReading{}).heading();
   const RecordedNetwork network(heading, no_rules);
   const NodeNames names(network.tree());
   const auto refuse = [&](std::string_view code, std::string message,

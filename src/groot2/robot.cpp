@@ -16,6 +16,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
+constexpr milliseconds kFirstPatience{200};
 constexpr milliseconds kLastPatience{500};  // of those that take leave
 constexpr milliseconds kPause{20};          // between two looks at changes
 constexpr milliseconds kShortPause{1};      // where many have come
@@ -118,7 +119,10 @@ Answer Robot::meet() {
   bool is_told = false;
   int silences = 0;
   for (;;) {
-    Answer answer = link_.ask(Request::Tree, following_.patience);
+    // That nobody is there is said soon.
+    Answer answer = link_.ask(
+        Request::Tree, is_told ? following_.patience
+                               : std::min(following_.patience, kFirstPatience));
     switch (answer.kind) {
       case Answer::Kind::Good:
         if (is_told) listener_.is_back();
@@ -280,7 +284,7 @@ void Robot::begin() {
   }
   known_ = std::move(before);
   time_ = 0;
-  ticks_.emplace(log_, following_.tick_time, following_.tick_pause);
+  ticks_.emplace(log_, following_.reading);
   tick_ = log_.transitions.empty() ? 0 : ticks_->tick_at(0);
   has_begun_ = true;
   auto found = listener_.begins(log_, entries());

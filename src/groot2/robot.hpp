@@ -68,8 +68,7 @@ struct Following {
   std::vector<Fault> faults;
   bool asks_for_entries = false;
   std::chrono::milliseconds patience{1000};  // with one request
-  std::int64_t tick_time = kTickTime;        // microseconds
-  std::int64_t tick_pause = kTickPause;      // as much parts two ticks
+  LogReading reading = {};                   // of its ticks
 };
 
 class Robot {
