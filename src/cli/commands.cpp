@@ -27,6 +27,8 @@
 #include "cli/inputs/watch.hpp"
 #include "cli/options/tables.hpp"
 #include "cli/options/words.hpp"
+#include "cli/recordings.hpp"
+#include "cli/robots/watch.hpp"
 #include "lsp/command.hpp"
 #include "pins/words.hpp"
 #include "report/codes/codes.hpp"
@@ -238,6 +240,14 @@ ExitCode run_man(const Options&) {
   return ExitCode::Met;
 }
 
+// --- watch ---------------------------------------------------------------
+
+ExitCode run_watch(const Options& options) {
+  return watch_robots(
+      options, reading_of(options),
+      [&](const std::string& robot) { return live_rules(options, robot); });
+}
+
 // --- The program ---------------------------------------------------------
 
 struct RunOf {
@@ -255,7 +265,7 @@ constexpr auto kRuns = std::to_array<RunOf>({
     {Command::Monitor, run_monitor},   {Command::Leaves, run_leaves},
     {Command::Answer, run_answer},     {Command::Serve, run_serve},
     {Command::Mcp, run_mcp},           {Command::Lsp, run_lsp},
-    {Command::Fmt, run_fmt},
+    {Command::Fmt, run_fmt},           {Command::Watch, run_watch},
 });
 static_assert(is_indexed(kRuns, &RunOf::command));
 

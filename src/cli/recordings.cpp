@@ -191,12 +191,14 @@ std::optional<std::vector<LiveRules>> live_rules(const Options& options,
   const auto asked = asked_rules(options);
   if (!asked) return std::nullopt;
   std::vector<LiveRules> all;
-  for (const InputFile& rules : *asked) {
+  for (const InputFile& each : *asked) {
+    const auto kept = std::make_shared<const InputFile>(each);
+    const InputFile& rules = *kept;
     auto read = read_properties(rules.name, rules.text);
     show(options, read.diagnostics);
     if (!read.value) return std::nullopt;
-    LiveRules& made = all.emplace_back(
-        LiveRules{std::move(*read.value), SourceText(rules.name, rules.text)});
+    LiveRules& made = all.emplace_back(LiveRules{
+        std::move(*read.value), SourceText(rules.name, rules.text), {}, kept});
     if (made.file.tree.empty()) {
       made.place = [file](const BehaviorLog& log) -> Result<LogInTree> {
         if (!log.has_places()) return {std::nullopt, {without_tree(file)}};

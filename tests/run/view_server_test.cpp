@@ -212,6 +212,42 @@ TEST_CASE("the page is served to who has the address, and to nobody else") {
   }
 }
 
+TEST_CASE("several runs have a list, and a folder for each") {
+  LiveRun run(beginning());
+  LiveServer server({"groot2://arm:1667", "groot2://<b>&:1667"});
+  REQUIRE(server.open(0) == "");
+  const Served served(server);
+  const auto page = [&](const std::string& path) {
+    return answer(served, request(served, path + "?token=" + served.token));
+  };
+  const std::string list = page("/");
+  CHECK(status(list) == 200);
+  CHECK(list.find(fmt::format("<a href=\"/1/?token={}\">groot2://arm:1667</a>",
+                              served.token)) != std::string::npos);
+  CHECK(list.find("groot2://&lt;b&gt;&amp;:1667") != std::string::npos);
+  CHECK(count(list, "nobody answers there yet") == 2);
+  CHECK(list.find("http-equiv=\"refresh\"") != std::string::npos);
+  // Until a run is there its page waits, and nobody waits for who reads it.
+  CHECK(page("/2/").find("nobody answers there yet") != std::string::npos);
+  CHECK(!server.is_watched());
+  server.show(1, run);
+  CHECK(count(page("/"), "nobody answers there yet") == 1);
+  CHECK(page("/2/").find("\"live\":1,") != std::string::npos);
+  CHECK(server.is_watched());
+  Client client(served.port);
+  client.say(request(served, "/2" + events_path(served)));
+  client.hear("retry:");
+  run.add(states(1, 1));
+  CHECK(client.hear("id: 1-1").find("data: {") != std::string::npos);
+  for (const char* path : {"/0/", "/3/", "/1x/", "/events", "/2", "/2//",
+                           "/2/1/", "/18446744073709551617/"}) {
+    CAPTURE(path);
+    CHECK(status(page(path)) == 404);
+  }
+  CHECK(status(answer(served, request(served, "/2/"))) == 403);
+  CHECK(status(answer(served, request(served, "/"))) == 403);
+}
+
 TEST_CASE("what is no request is closed") {
   LiveRun run(beginning());
   LiveServer server(run, {.connections = 2,

@@ -111,6 +111,7 @@ const std::vector<Home>& homes() {
        {"src/explore/large/sorted_run.cpp", "src/trace/logs/unpacked.cpp"}},
       {"lz4frame.h", {"src/trace/logs/unpacked.cpp"}},
       {"sqlite3.h", {"src/trace/logs/rosbag_messages.cpp"}},
+      {"zmq.h", {"src/groot2/link.cpp"}},
       {"nlohmann/",
        {"src/trace/run/itf.cpp", "src/batch/results/kept_text.cpp",
         "src/run/process/message.cpp", "src/trace/oracle/oracle.cpp",

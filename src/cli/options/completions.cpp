@@ -31,7 +31,7 @@ constexpr std::array<Offer, 6> kValues = {
       ":{name}:_files -/", " -x -a '(__fish_complete_directories)'"}}};
 
 // For the other words of a command, in the order of ArgumentKind.
-constexpr std::array<Offer, 9> kArguments = {
+constexpr std::array<Offer, 10> kArguments = {
     {{":", "", ""},
      {"files '*.@(btf|xml|btproj|ltl|btp)'",
       "':tree:_files -g \"*.(btf|xml|btproj|ltl|btp)\"'", " -F"},
@@ -43,6 +43,7 @@ constexpr std::array<Offer, 9> kArguments = {
       "'*:file:_files -g \"*.(btf|xml|btproj|ltl|btp|leaves)\"'", " -F"},
      {"files '*'", "':run:_files'", " -F"},
      {"files '*'", "'*:log:_files'", " -F"},
+     {":", "'*:robot: '", " -x"},
      {"offer '{words}'", "':code:({words})'", " -a '{words}'"},
      {"offer '{words}'", "':shell:({words})'", " -a '{words}'"}}};
 

@@ -405,6 +405,8 @@ void settle_tick_gap(const OptionWords& words, Options& options) {
       if (!words.has("--tree")) return;
       return refuse("--tick-gap and --tree do not go together",
                     "btcheck trace run.csv --tree TREE --to text");
+    case Command::Watch:
+      return;
     case Command::Conform:
       if (words.has("--learn-leaves")) return;
       return refuse("--tick-gap needs --learn-leaves",
@@ -505,7 +507,9 @@ std::vector<std::string> roots_around(const Options& options) {
   const auto add = [&](const std::string& root) {
     if (std::ranges::count(roots, root) == 0) roots.push_back(root);
   };
-  for (const std::string& input : options.inputs) {
+  const bool is_of_robots = options.command == Command::Watch;
+  for (const std::string& input :
+       is_of_robots ? options.properties : options.inputs) {
     const std::size_t end =
         is_folder(input) ? input.size() : input.rfind('/') + 1;
     const std::string folder = end == 0 ? "." : input.substr(0, end);
@@ -585,6 +589,33 @@ void settle_watch(const OptionWords& words, Options& options) {
   }
 }
 
+// Robots are left alone unless somebody says that it is meant.
+void settle_robots(const OptionWords& words, Options& options) {
+  if (options.command != Command::Watch) return;
+  RobotPlan& plan = options.robots;
+  plan.faults = words.all("--inject");
+  plan.breaks = words.all("--break");
+  settle_number(words, "--break-for", 1, kMostMilliseconds, plan.break_ms);
+  for (const std::string_view name : {"--inject", "--break"}) {
+    if (!words.has(name) || words.has("--allow-inject")) continue;
+    refuse(fmt::format("{} changes what the robot does", name),
+           "where that is safe, add --allow-inject");
+  }
+  if (words.has("--break-for") && plan.breaks.empty()) {
+    refuse("--break-for goes with --break",
+           "btcheck watch groot2://robot --break NODE --break-for 500");
+  }
+  if (words.has("--allow-inject") && plan.faults.empty() &&
+      plan.breaks.empty()) {
+    refuse("--allow-inject goes with --inject or --break",
+           "without it the robot is left alone");
+  }
+  if (words.has("-o") && !options.output.ends_with(".btlog")) {
+    refuse(fmt::format("-o {}: a log is called FILE.btlog", options.output),
+           "Groot2 opens no other");
+  }
+}
+
 // What a command cannot do without.
 void refuse_missing(const OptionWords& words) {
   const CommandRow& command = row_of(words.command);
@@ -644,6 +675,7 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_against(words, options);
   settle_batch(words, options);
   settle_watch(words, options);
+  settle_robots(words, options);
   settle_roots(words, options);
   refuse_missing(words);
   return options;

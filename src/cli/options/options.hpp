@@ -45,7 +45,8 @@ enum class Command : std::uint8_t {
   Serve,
   Mcp,
   Lsp,
-  Fmt
+  Fmt,
+  Watch
 };
 
 // The tree that `btcheck -` reads.
@@ -107,6 +108,13 @@ struct FormattingPlan {
   std::string stdin_name;  // --stdin-name; "" for none
 
   bool writes() const { return !checks && !shows; }
+};
+
+// How `watch` follows robots.
+struct RobotPlan {
+  std::vector<std::string> faults;  // --inject
+  std::vector<std::string> breaks;  // --break
+  std::optional<int> break_ms;      // --break-for
 };
 
 // How `space` tells its figures.
@@ -172,6 +180,7 @@ struct Options {
   bool tells_coverage = false;  // conform: --coverage
   std::string output;           // -o; "" for standard output
   FormattingPlan formatting;
+  RobotPlan robots;
   std::optional<LeafForm> leaf_form;  // leaves: --to; else by the name of -o
   std::optional<GraphFormat> graph;   // space: --export
   std::string graph_file;             // "" for standard output

@@ -126,6 +126,20 @@ constexpr CommandRow kCommands[] = {
          "Reads a line of JSON for each message of Nav2's /behavior_tree_log "
          "and answers it with a verdict, in the form of ROSMonitoring's "
          "oracles."},
+    {.command = Watch,
+     .word = "watch",
+     .argument = ArgumentKind::Robots,
+     .shown = "groot2://HOST[:PORT]...",
+     .missing = "no robot",
+     .example = "btcheck watch groot2://robot --prop RULES.ltl",
+     .summary = "a robot that runs, watched through its Groot2 publisher",
+     .description =
+         "Connects to the Groot2Publisher of a program with BehaviorTree.CPP "
+         "4, as Groot2 does, at port 1667 unless the address says another. "
+         "Tells the verdict of each rule at the moment that decides it, shows "
+         "the run in a browser, and keeps it as a log, until Ctrl-C or "
+         "--timeout. What the robot does is left alone, but for --inject and "
+         "--break."},
     {.command = Explain,
      .word = "explain",
      .argument = ArgumentKind::Code,
@@ -246,12 +260,12 @@ constexpr CommandSet kCountsStates = {
 constexpr CommandSet kLimited = {
     Check,    Batch, Lint, Space,   Export, Trace,           Demo,
     Simulate, Init,  Run,  Conform, Leaves, Command::Answer, Serve,
-    Mcp,      Lsp,   Fmt};
+    Mcp,      Lsp,   Fmt,  Watch};
 constexpr CommandSet kEvery = {
     Check,    Batch,       Lint, Space,  Export,          Trace,
     Simulate, Explain,     Demo, Init,   Conform,         Run,
     Monitor,  Completions, Man,  Leaves, Command::Answer, Serve,
-    Mcp,      Lsp,         Fmt};
+    Mcp,      Lsp,         Fmt,  Watch};
 
 constexpr std::string_view kProfileNames =
     "paper btcpp-3.5.1 btcpp-3.5 btcpp-3.6 btcpp-3.7 btcpp-3.8 btcpp-4.0 "
@@ -266,14 +280,14 @@ constexpr OptionRow kOptions[] = {
      .value = "FILE",
      .names = ValueKind::File,
      .help = "a file of properties",
-     .commands = {Check, Lint, Export, Trace, Monitor, Run},
+     .commands = {Check, Lint, Export, Trace, Monitor, Run, Watch},
      .is_repeatable = true,
-     .first = {Check, Export, Trace, Run, Monitor},
+     .first = {Check, Export, Trace, Run, Monitor, Watch},
      .example = "btcheck TREE --prop RULES.ltl"},
     {.name = "-e",
      .value = "RULE",
      .help = "a rule, as in a file of properties; its name may be left out",
-     .commands = {Check, Lint, Export, Trace, Monitor, Run},
+     .commands = {Check, Lint, Export, Trace, Monitor, Run, Watch},
      .is_repeatable = true,
      .first = {Check, Trace},
      .example = "btcheck TREE -e 'never land.failure'"},
@@ -308,7 +322,7 @@ constexpr OptionRow kOptions[] = {
      .value = "MILLISECONDS",
      .fallback = "100",
      .help = "how long one tick takes, in a log with --prop or --view",
-     .commands = {Trace, Monitor},
+     .commands = {Trace, Monitor, Watch},
      .first = {Monitor},
      .example = "btcheck trace robot.btlog --prop RULES.ltl --tick-ms 10"},
     {.name = "--tick-gap",
@@ -316,7 +330,7 @@ constexpr OptionRow kOptions[] = {
      .fallback = "where ticks begin is not known",
      .help = "logs without ticks: a pause as long or longer parts two ticks, a "
              "shorter one does not",
-     .commands = {Check, Space, Trace, Simulate, Conform},
+     .commands = {Check, Space, Trace, Simulate, Conform, Watch},
      .example = "btcheck trace robot.btlog --prop RULES.ltl --tick-gap 5"},
     {.name = "--models",
      .value = "FILE",
@@ -441,7 +455,7 @@ constexpr OptionRow kOptions[] = {
      .fallback = "never",
      .help = "stop after this many seconds",
      .commands = kLimited,
-     .first = {Check, Batch, Space}},
+     .first = {Check, Batch, Space, Watch}},
     {.name = "--watch",
      .help = "check again whenever a file is saved, until Ctrl-C",
      .commands = {Check, Batch},
@@ -572,6 +586,14 @@ constexpr OptionRow kOptions[] = {
      .help = "keep the run in this file, as ITF JSON",
      .commands = {Simulate, Run},
      .first = {Simulate, Run}},
+    {.name = "-o",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .help = "keep what is recorded in this file, as a log for Groot2; the "
+             "next recording, after a new start of the program, in FILE-2",
+     .commands = {Watch},
+     .first = {Watch},
+     .example = "btcheck watch groot2://robot -o robot.btlog"},
     {.name = "--tree",
      .value = "FILE",
      .names = ValueKind::File,
@@ -674,6 +696,42 @@ constexpr OptionRow kOptions[] = {
      .commands = {Check, Batch},
      .may_stand_alone = true,
      .example = "btcheck --watch FOLDER --view"},
+    {.name = "--view",
+     .value = "PORT",
+     .fallback = "any port that is free",
+     .help = "show the robots while they run, to the browsers of this machine; "
+             "the address is printed",
+     .commands = {Watch},
+     .may_stand_alone = true,
+     .first = {Watch},
+     .example = "btcheck watch groot2://robot --view"},
+    {.name = "--inject",
+     .value = "FAULT",
+     .help = "have a node answer instead of what it does, for a test: `NODE "
+             "fails` or `succeeds`, then `once` (the default) or `always`, "
+             "then `from tick N`",
+     .commands = {Watch},
+     .is_repeatable = true,
+     .example = "btcheck watch groot2://robot --inject 'dock fails' "
+                "--allow-inject"},
+    {.name = "--break",
+     .value = "NODE",
+     .help = "stop the tree where this node is about to be ticked, until Enter",
+     .commands = {Watch},
+     .is_repeatable = true,
+     .example = "btcheck watch groot2://robot --break dock --allow-inject"},
+    {.name = "--break-for",
+     .value = "MILLISECONDS",
+     .fallback = "until Enter",
+     .help = "with --break: how long the tree stops",
+     .commands = {Watch},
+     .example = "btcheck watch groot2://robot --break dock --break-for 500 "
+                "--allow-inject"},
+    {.name = "--allow-inject",
+     .help = "allow --inject and --break: the robot does what it would not",
+     .commands = {Watch},
+     .example = "btcheck watch groot2://robot --inject 'dock fails' "
+                "--allow-inject"},
     {.name = "--learn-leaves",
      .value = "FILE",
      .names = ValueKind::File,

@@ -24,6 +24,7 @@ enum class ArgumentKind : std::uint8_t {
   Files,    // trees, rules, contracts and folders
   Run,      // one run or log
   Logs,     // logs of one tree, and perhaps the tree
+  Robots,   // addresses of robots
   Code,     // perhaps the code of a diagnostic
   Shell     // the name of a shell
 };

@@ -90,6 +90,7 @@ void refuse_extra(const CommandRow& command,
                   const std::vector<std::string>& inputs) {
   const bool takes_many = command.argument == ArgumentKind::Trees ||
                           command.argument == ArgumentKind::Logs ||
+                          command.argument == ArgumentKind::Robots ||
                           command.argument == ArgumentKind::Files ||
                           command.argument == ArgumentKind::Batches;
   const std::size_t most = command.argument == ArgumentKind::None ? 0

@@ -57,7 +57,7 @@ std::vector<const CodeRow*> all_codes() {
   std::vector<const CodeRow*> rows;
   for (const auto family :
        {command_codes(), tree_codes(), property_codes(), btcpp_codes(),
-        verdict_codes(), lint_codes(), recording_codes()}) {
+        verdict_codes(), lint_codes(), recording_codes(), robot_codes()}) {
     for (const CodeRow& row : family) rows.push_back(&row);
   }
   std::ranges::sort(rows, {}, &CodeRow::code);

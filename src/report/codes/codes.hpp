@@ -58,6 +58,7 @@ std::span<const CodeRow> btcpp_codes();
 std::span<const CodeRow> verdict_codes();  // in the order of the codes
 std::span<const CodeRow> lint_codes();
 std::span<const CodeRow> recording_codes();
+std::span<const CodeRow> robot_codes();
 
 // All of them, in the order of the codes.
 std::vector<const CodeRow*> all_codes();

@@ -67,26 +67,37 @@ std::string random_token() {
   return token;
 }
 
-LiveAnswer answer_to(const LiveRequest& request, const LiveAddress& address) {
+LiveAnswer answer_to(const LiveRequest& request, const LiveAddress& address,
+                     std::size_t runs) {
   const auto refused = [](unsigned status) {
     return LiveAnswer{status, std::nullopt};
   };
   if (!is_from_here(request, address.port)) return refused(403);
   if (request.method != "GET") return refused(405);
   const std::size_t sign = request.target.find('?');
-  const std::string_view path = request.target.substr(0, sign);
+  std::string_view path = request.target.substr(0, sign);
   const std::string_view query = sign == std::string_view::npos
                                      ? std::string_view()
                                      : request.target.substr(sign + 1);
+  const bool is_list = runs != 1 && path == "/";
+  std::size_t run = 0;
+  if (runs != 1 && !is_list) {
+    const std::size_t end = std::min(path.find('/', 1), path.size());
+    const auto number = as_number<std::size_t>(path.substr(1, end - 1));
+    if (!number || *number < 1 || *number > runs) return refused(404);
+    run = *number - 1;
+    path.remove_prefix(end);
+  }
   if (path != "/" && path != "/events") return refused(404);
   if (!is_same(parameter(query, "token"), address.token)) return refused(403);
-  if (path == "/") return {};
+  if (is_list) return {200, std::nullopt, std::nullopt};
+  if (path == "/") return {200, std::nullopt, run};
   // Who has heard a part of it goes on there.
   if (const auto place = LiveRun::place_of(request.last_event_id)) {
-    return {200, *place};
+    return {200, *place, run};
   }
   const auto chapter = as_number<std::uint64_t>(parameter(query, "chapter"));
-  return {200, LiveRun::Place{chapter.value_or(0), 0}};
+  return {200, LiveRun::Place{chapter.value_or(0), 0}, run};
 }
 
 }  // namespace btcheck

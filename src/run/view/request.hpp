@@ -10,6 +10,7 @@
 // is from).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -42,12 +43,15 @@ struct LiveRequest {
   std::string_view last_event_id;  // "" where there is none
 };
 
-// What is answered: an error (403, 404, 405), the page, or the events from a
-// place on.
+// What is answered: an error (403, 404, 405), the page of a run, its events
+// from a place on, or the list of runs.
 struct LiveAnswer {
   unsigned status = 200;
   std::optional<LiveRun::Place> events;
+  std::optional<std::size_t> run = {};  // none: the list
 };
-LiveAnswer answer_to(const LiveRequest& request, const LiveAddress& address);
+// Of several runs each has a folder, "/1/" the first; one alone has none.
+LiveAnswer answer_to(const LiveRequest& request, const LiveAddress& address,
+                     std::size_t runs = 1);
 
 }  // namespace btcheck

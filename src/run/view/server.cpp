@@ -28,6 +28,7 @@
 
 #include <fmt/format.h>
 
+#include "run/view/list_page.hpp"
 #include "run/view/request.hpp"
 
 namespace btcheck {
@@ -74,12 +75,17 @@ std::string whole_answer(unsigned status, std::string_view type,
 // Where clients come in.
 class LiveServer::Hall {
  public:
-  Hall(LiveRun& run, const ServerLimits& limits)
-      : run_(run), limits_(limits), acceptor_(context_) {}
+  Hall(std::vector<std::string> names, const ServerLimits& limits)
+      : names_(std::move(names)),
+        runs_(names_.size(), nullptr),
+        limits_(limits),
+        acceptor_(context_) {}
 
   ~Hall() {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (LiveRun* run = run_at(i)) run->on_news({});
+    }
     if (!thread_.joinable()) return;
-    run_.on_news({});
     context_.stop();
     thread_.join();
   }
@@ -95,9 +101,16 @@ class LiveServer::Hall {
     keep_to_ourselves(acceptor_.native_handle());
     address_ = {acceptor_.local_endpoint().port(), random_token()};
     accept();
-    run_.on_news([this] { note_news(); });
     thread_ = std::thread([this] { serve(); });
     return "";
+  }
+
+  void show(std::size_t place, LiveRun& run) {
+    {
+      const std::lock_guard lock(mutex_);
+      runs_[place] = &run;
+    }
+    run.on_news([this] { note_news(); });
   }
 
   std::string address() const { return address_.text(); }
@@ -139,6 +152,13 @@ class LiveServer::Hall {
     });
   }
 
+  // Null where it is not there yet.
+  LiveRun* run_at(std::size_t place) {
+    const std::lock_guard lock(mutex_);
+    return runs_[place];
+  }
+  std::string page(std::optional<std::size_t> place, std::string_view nonce);
+
   void receive(tcp::socket socket);
   void leave(const std::shared_ptr<Guest>& guest) { present_.erase(guest); }
 
@@ -159,7 +179,8 @@ class LiveServer::Hall {
     all_told_.notify_all();
   }
 
-  LiveRun& run_;
+  const std::vector<std::string> names_;
+  std::vector<LiveRun*> runs_;  // behind the mutex
   const ServerLimits limits_;
   LiveAddress address_;
   asio::io_context context_{1};
@@ -216,9 +237,10 @@ class LiveServer::Hall::Guest : public std::enable_shared_from_this<Guest> {
         answer_to({view(asked.method_string()), view(asked.target()),
                    all(http::field::host), all(http::field::origin),
                    view(asked["Last-Event-ID"])},
-                  hall_.address_);
+                  hall_.address_, hall_.names_.size());
     const std::string nonce = random_token();
-    if (found.events) {
+    if (found.events) run_ = hall_.run_at(*found.run);
+    if (run_ != nullptr) {
       place_ = found.events;
       hall_.note(Visit::Begin);
       watch_for_leaving();
@@ -226,9 +248,9 @@ class LiveServer::Hall::Guest : public std::enable_shared_from_this<Guest> {
           "HTTP/1.1 200 OK\r\n" + headers("text/event-stream", nonce) +
           "\r\nretry: 500\n\n"));
     } else if (found.status == 200) {
-      hall_.note(Visit::Page);
+      if (found.run && hall_.run_at(*found.run)) hall_.note(Visit::Page);
       send(std::make_shared<const std::string>(
-          whole_answer(200, "text/html", nonce, hall_.run_.page(nonce))));
+          whole_answer(200, "text/html", nonce, hall_.page(found.run, nonce))));
     } else {
       send(std::make_shared<const std::string>(whole_answer(
           found.status, "text/plain", nonce,
@@ -269,9 +291,9 @@ class LiveServer::Hall::Guest : public std::enable_shared_from_this<Guest> {
   }
 
   void go_on() {
-    if (auto message = hall_.run_.next(*place_)) {
+    if (auto message = run_->next(*place_)) {
       send(std::move(message));
-    } else if (hall_.run_.is_told(*place_)) {
+    } else if (run_->is_told(*place_)) {
       leave();
     }
   }
@@ -289,7 +311,8 @@ class LiveServer::Hall::Guest : public std::enable_shared_from_this<Guest> {
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   http::request_parser<http::empty_body> parser_;
-  std::optional<LiveRun::Place> place_;  // who listens
+  LiveRun* run_ = nullptr;               // of who listens
+  std::optional<LiveRun::Place> place_;  // likewise
   bool is_writing_ = false;
   bool is_gone_ = false;
   char ignored_ = 0;
@@ -310,12 +333,35 @@ void LiveServer::Hall::spread_news() {
   for (const std::shared_ptr<Guest>& guest : guests) guest->look();
 }
 
+std::string LiveServer::Hall::page(std::optional<std::size_t> place,
+                                   std::string_view nonce) {
+  if (place) {
+    if (const LiveRun* run = run_at(*place)) return run->page(nonce);
+    return waiting_page(names_[*place]);
+  }
+  std::vector<ListedRun> listed;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    listed.push_back({names_[i], run_at(i) != nullptr});
+  }
+  return list_page(listed, address_.token);
+}
+
 LiveServer::LiveServer(LiveRun& run, const ServerLimits& limits)
-    : hall_(std::make_unique<Hall>(run, limits)) {}
+    : LiveServer(std::vector<std::string>{""}, limits) {
+  show(0, run);
+}
+
+LiveServer::LiveServer(std::vector<std::string> names,
+                       const ServerLimits& limits)
+    : hall_(std::make_unique<Hall>(std::move(names), limits)) {}
 
 LiveServer::~LiveServer() = default;
 
 std::string LiveServer::open(std::uint16_t port) { return hall_->open(port); }
+
+void LiveServer::show(std::size_t place, LiveRun& run) {
+  hall_->show(place, run);
+}
 
 std::string LiveServer::address() const { return hall_->address(); }
 

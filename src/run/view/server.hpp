@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "trace/live/live_run.hpp"
 
@@ -29,12 +30,19 @@ class LiveServer {
  public:
   // The run must outlive it, and nobody adds to it while this is destroyed.
   explicit LiveServer(LiveRun& run, const ServerLimits& limits = {});
+  // Runs with names, of which none is there yet. Of several the page is a list
+  // with a page for each.
+  explicit LiveServer(std::vector<std::string> names,
+                      const ServerLimits& limits = {});
   ~LiveServer();
   LiveServer(const LiveServer&) = delete;
   LiveServer& operator=(const LiveServer&) = delete;
 
   // On this port; 0: on any that is free. Returns what went wrong, or "".
   std::string open(std::uint16_t port);
+  // A run by its place among the names; by any thread, once for each. Until
+  // then its page waits.
+  void show(std::size_t place, LiveRun& run);
   // With the token. Once it is open.
   std::string address() const;
   // Whether somebody listens, or has got the page and is about to.

@@ -17,6 +17,9 @@ namespace {
 // So many states are shown at once.
 constexpr std::size_t kPiece = 1000;
 
+constexpr std::string_view kOpen =
+    kOutlookNames[static_cast<std::size_t>(Outlook::Open)];
+
 // Whether the log is the one before, and perhaps more of it. A recording of
 // ROS 2 gets a node when it is first heard of: its run begins anew.
 bool goes_on(const BehaviorLog& before, const BehaviorLog& now) {
@@ -57,7 +60,12 @@ RecordedRun LiveLog::beginning() const {
   run.formula = rules_.empty()
                     ? "a log of BehaviorTree.CPP; no property is checked"
                     : "a log of BehaviorTree.CPP, and rules asked of it";
+  if (!words_.empty()) run.formula = words_;
   run.verdict = "LOG";
+  if (!log_.marks) {
+    run.variables = names_;
+    run.is_number.assign(names_.size(), false);
+  }
   return run;
 }
 
@@ -86,7 +94,7 @@ void LiveLog::add_marks(BehaviorLog log) {
   const bool is_more = log.marks->events.size() > log_.marks->events.size();
   log_ = std::move(log);
   if (!is_more) return;
-  gather();
+  gather({});
   show();
   for (const auto& each : judges_) {
     each->in_tree.log = log_;
@@ -129,10 +137,12 @@ std::vector<Diagnostic> LiveLog::begin(BehaviorLog log) {
   if (!flaws.empty()) return flaws;
   log_ = std::move(log);
   player_ = std::make_unique<LogPlayer>(log_, reading_);
-  played_ = 0;
+  verdicts_.clear();
+  is_open_ = true;
   states_.clear();
   places_.clear();
-  gather();
+  forgotten_ = 0;
+  gather(log_.transitions);
   RecordedRun run = beginning();
   run.states = {std::move(states_.front())};
   states_.erase(states_.begin());
@@ -146,11 +156,13 @@ std::vector<Diagnostic> LiveLog::begin(BehaviorLog log) {
   return {};
 }
 
-void LiveLog::add(std::span<const LogTransition> records) {
+void LiveLog::add(std::span<const LogTransition> records, Shown shown) {
   if (records.empty()) return;
-  log_.transitions.insert(log_.transitions.end(), records.begin(),
-                          records.end());
-  gather();
+  if (!forgets_) {
+    log_.transitions.insert(log_.transitions.end(), records.begin(),
+                            records.end());
+  }
+  gather(records, shown);
   show();
   // A recording's records are of other nodes in a tree.
   if (!log_.has_places()) {
@@ -159,27 +171,54 @@ void LiveLog::add(std::span<const LogTransition> records) {
     for (const auto& each : judges_) each->watch->play_on(records);
   }
   judge();
+  if (!forgets_) return;
+  forgotten_ += places_.size();
+  places_.clear();
+}
+
+void LiveLog::know(const std::map<std::string, std::string>& entries) {
+  const std::vector<std::string> before = values_;
+  if (!is_open_) {
+    names_.clear();
+    for (const auto& [name, value] : entries) names_.push_back(name);
+  }
+  values_.clear();
+  for (const std::string& name : names_) {
+    const auto found = entries.find(name);
+    values_.push_back(found == entries.end() ? "unset" : found->second);
+  }
+  if (!is_open_ || values_ == before) return;
+  note_state();
+  states_.back().mover.reset();
+  states_.back().event.clear();
+  states_.back().step = "entries";
+  show();
+}
+
+void LiveLog::note_state() {
+  const auto record = player_->place().record;
+  states_.push_back(player_->state());
+  if (!log_.marks) states_.back().values = values_;
+  places_.emplace_back(record ? *record + 1 : 0, player_->state().tick);
 }
 
 // A pause of an hour is one state, and not each of its ticks.
-void LiveLog::gather() {
-  const auto see = [this] {
+void LiveLog::gather(std::span<const LogTransition> records, Shown shown) {
+  const auto see = [&] {
+    if (shown != Shown::Each) return true;
     const RecordedState& state = player_->state();
-    const auto record = player_->place().record;
-    const std::pair place(record ? *record + 1 : 0, state.tick);
     if (!states_.empty() && is_pause(states_.back()) && is_pause(state)) {
-      states_.back() = state;
-    } else {
-      states_.push_back(state);
-      places_.push_back(place);
+      states_.pop_back();
+      places_.pop_back();
     }
+    note_state();
     return true;
   };
   if (log_.marks) {
     player_->play_marks(see);
   } else {
-    player_->play_on(std::span(log_.transitions).subspan(played_), see);
-    played_ = log_.transitions.size();
+    player_->play_on(records, see);
+    if (shown == Shown::Last) note_state();
   }
 }
 
@@ -210,16 +249,21 @@ std::size_t LiveLog::state_of(const LogWatch& watch, std::size_t rule) const {
       places_, [&](const std::pair<std::size_t, int>& place) {
         return place.first <= records && place.second <= tick;
       });
-  return later == places_.begin()
-             ? 0
-             : static_cast<std::size_t>(later - places_.begin()) - 1;
+  const auto state =
+      forgotten_ + static_cast<std::size_t>(later - places_.begin());
+  return state == 0 ? 0 : state - 1;
 }
 
 void LiveLog::judge() {
   if (judges_.empty()) return;
-  verdicts_.clear();
+  const std::vector<LiveVerdict> before = std::exchange(verdicts_, {});
   for (const auto& each : judges_) {
     for (std::size_t i = 0; i < each->watch->rules().size(); ++i) {
+      const std::size_t number = verdicts_.size();
+      if (number < before.size() && before[number].verdict != kOpen) {
+        verdicts_.push_back(before[number]);  // for good
+        continue;
+      }
       const WatchedRule rule = watched_rule(*each->watch, i);
       LiveVerdict& told = verdicts_.emplace_back();
       told.name = rule.name;
@@ -252,15 +296,19 @@ bool LiveLog::is_broken() const {
   });
 }
 
-void LiveLog::end(std::string_view words) {
+void LiveLog::close() {
+  if (!std::exchange(is_open_, false)) return;
   player_->play_end([this] {
-    states_.push_back(player_->state());
-    places_.emplace_back(log_.transitions.size(), player_->state().tick);
+    note_state();
     return true;
   });
   show();
   for (const auto& each : judges_) each->watch->play_end();
   judge();
+}
+
+void LiveLog::end(std::string_view words) {
+  close();
   run_->end(words);
 }
 

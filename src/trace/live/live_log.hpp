@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -35,6 +36,7 @@ struct LiveRules {
   PropertyFile file;
   SourceText source;
   std::function<Result<LogInTree>(const BehaviorLog&)> place = {};
+  std::shared_ptr<const void> text = {};  // that the source is a view of
 };
 
 class LiveLog {
@@ -54,9 +56,20 @@ class LiveLog {
 
   // The same of a log that comes in another way: it begins, or begins anew,
   std::vector<Diagnostic> begin(BehaviorLog log);
-  // and has these records more.
-  void add(std::span<const LogTransition> records);
+  // and has these records more, shown each or by the state behind them alone.
+  enum class Shown : std::uint8_t { Each, Last, Nothing };
+  void add(std::span<const LogTransition> records, Shown shown = Shown::Each);
+  // What entries have as values from now on, as texts by their names. The run
+  // has those that were known when it began.
+  void know(const std::map<std::string, std::string>& entries);
+  // Of a log that comes in that way: nothing is kept of it that is not shown,
+  // however long it goes on.
+  void forget() { forgets_ = true; }
+  // What is said of the run that begins next.
+  void say(std::string words) { words_ = std::move(words); }
 
+  // The log is over, and another one may begin.
+  void close();
   // The log is not followed any longer.
   void end(std::string_view words);
 
@@ -76,7 +89,9 @@ class LiveLog {
   RecordedRun beginning() const;
   std::vector<Diagnostic> ask(const BehaviorLog& log);
   void add_marks(BehaviorLog log);
-  void gather();
+  void gather(std::span<const LogTransition> records,
+              Shown shown = Shown::Each);
+  void note_state();
   void show();
   void judge();
   std::size_t state_of(const LogWatch& watch, std::size_t rule) const;
@@ -86,7 +101,6 @@ class LiveLog {
   std::string topic_;
   std::vector<LiveRules> rules_;
   BehaviorLog log_;
-  std::size_t played_ = 0;             // of its records
   std::unique_ptr<LogPlayer> player_;  // of the log
   std::vector<std::unique_ptr<Judge>> judges_;
   std::vector<LiveVerdict> verdicts_;
@@ -94,6 +108,12 @@ class LiveLog {
   std::vector<RecordedState> states_;  // that are not shown yet
   // By state: how many records had been read, and the tick.
   std::vector<std::pair<std::size_t, int>> places_;
+  bool is_open_ = false;
+  bool forgets_ = false;
+  std::size_t forgotten_ = 0;        // states without a place
+  std::vector<std::string> values_;  // of entries
+  std::vector<std::string> names_;   // theirs
+  std::string words_;
 };
 
 }  // namespace btcheck

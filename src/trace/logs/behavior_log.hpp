@@ -144,7 +144,12 @@ inline constexpr std::int64_t kLogBegin = 946'684'800'000'000;
 inline constexpr std::int64_t kTickTime = 100'000;
 
 // The bytes of FileLogger2: magic, version, XML, the time the log begins, and 9
-// bytes for each change of a status. Event i of tick t (from 0) has the time
+// bytes for each change of a status.
+std::string btlog_heading(std::string_view xml, std::int64_t begin);
+void append_record(std::string& bytes, std::int64_t time, std::uint16_t uid,
+                   LogStatus status);
+
+// A run as such a log. Event i of tick t (from 0) has the time
 // t * 100 ms + i us, so that a slider moves by ticks. The loop of a run is gone
 // through `passes` times. Nodes beyond the 65,535th have no number in such a
 // log and are silent.

@@ -203,23 +203,33 @@ class Logger {
 
 }  // namespace
 
-std::string btlog_bytes(const RecordedRun& run, int passes) {
-  const LoggedTree tree = btcpp_tree(run);
-  const std::string xml = btcpp_xml(tree);
+std::string btlog_heading(std::string_view xml, std::int64_t begin) {
   std::string bytes(kBtlogMagic);
   append_number(bytes, kBtlogVersion, 1);
   append_number(bytes, xml.size(), 4);
   bytes += xml;
-  append_number(bytes, static_cast<std::uint64_t>(kLogBegin), 8);
+  append_number(bytes, static_cast<std::uint64_t>(begin), 8);
+  return bytes;
+}
+
+void append_record(std::string& bytes, std::int64_t time, std::uint16_t uid,
+                   LogStatus status) {
+  append_number(bytes, static_cast<std::uint64_t>(time), 6);
+  append_number(bytes, uid, 2);
+  append_number(bytes, static_cast<std::uint64_t>(status), 1);
+}
+
+std::string btlog_bytes(const RecordedRun& run, int passes) {
+  const LoggedTree tree = btcpp_tree(run);
+  std::string bytes = btlog_heading(btcpp_xml(tree), kLogBegin);
   std::int64_t next = 0;
   Logger logger(run, tree);
   for (const Passing& passing : unrolled(run, passes)) logger.pass(passing);
   for (const StatusChange& change : logger.take()) {
     if (change.node >= kMostNodes) continue;
     const std::int64_t time = std::max(next, change.tick * kTickTime);
-    append_number(bytes, static_cast<std::uint64_t>(time), 6);
-    append_number(bytes, change.node + 1, 2);
-    append_number(bytes, static_cast<std::uint64_t>(change.status), 1);
+    append_record(bytes, time, static_cast<std::uint16_t>(change.node + 1),
+                  change.status);
     next = time + 1;
   }
   return bytes;

@@ -11,7 +11,7 @@ const LEAST_REST = 40;
 // What btcheck tells of a run; `page` becomes "live", "lost" or "gone".
 function listenTo(chapter, page, beginAnew, conclude) {
   const token = new URLSearchParams(location.search).get("token");
-  const stream = new EventSource(`/events?token=${token}&chapter=${chapter}`);
+  const stream = new EventSource(`events?token=${token}&chapter=${chapter}`);
   stream.onopen = () => page.become("live");
   stream.onerror = () => page.become(
     stream.readyState === EventSource.CLOSED ? "gone" : "lost");

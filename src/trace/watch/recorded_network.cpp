@@ -205,11 +205,12 @@ int RecordedNetwork::value_of(std::size_t variable,
 }
 
 void RecordedNetwork::read(const RecordedState& state,
+                           std::span<const std::size_t> nodes,
                            Valuation& valuation) const {
   auto& values = valuation.variables;
   values.resize(network_.variables.size(), 0);
   const auto statuses = status_names(tree_.profile);
-  for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
+  for (const std::size_t n : nodes) {
     values[index(location(n))] = location_number(state.locations[n]);
     const auto status = std::ranges::find(statuses, state.statuses[n]);
     values[index(network_.node_status[n])] =

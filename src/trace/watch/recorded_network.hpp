@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,8 +36,9 @@ class RecordedNetwork {
   Network& network() { return network_; }
 
   // What the network's own variables are in a recorded state; those that rules
-  // have it remember stay as they are.
-  void read(const RecordedState& state, Valuation& valuation) const;
+  // have it remember, and those of other nodes, stay as they are.
+  void read(const RecordedState& state, std::span<const std::size_t> nodes,
+            Valuation& valuation) const;
 
   VariableId location(std::size_t node) const;
   static int location_number(std::string_view name);

@@ -209,6 +209,7 @@ Result<std::unique_ptr<RecordedWatch>> RecordedWatch::make(
     made->seen_.push_back({rule.rule, MonitorRun(rule.monitor), {}, false});
   }
   made->bind_memory(source);
+  made->find_asked();
   result.value = std::move(made);
   return result;
 }
@@ -244,6 +245,35 @@ void RecordedWatch::bind_memory(const SourceText& source) {
   }
 }
 
+void RecordedWatch::find_asked() {
+  const Network& network = network_.network();
+  std::vector<bool> is_asked(nodes_, false);
+  const auto note = [&](const Expression& expression) {
+    for (const Term& term : expression.terms()) {
+      if (term.operation != Operation::Variable) continue;
+      const Variable& known = network.variable(
+          VariableId{static_cast<std::uint32_t>(term.operand)});
+      if (!known.owner) continue;
+      const Automaton& owner = network.automaton(*known.owner);
+      if (owner.kind == AutomatonKind::Node) is_asked[index(owner.node)] = true;
+    }
+  };
+  for (const RuleMonitor& rule : monitors_) {
+    for (const auto& asked : rule.propositions) note(asked.expression);
+    for (const PropertyAtom& atom : rule.rule->atoms) {
+      note(atom.is.of.expression);
+    }
+  }
+  for (const Past& past : past_) {
+    note(past.held);
+    note(past.began);
+  }
+  for (const NodeId root : network_.tree().roots) is_asked[index(root)] = true;
+  for (std::size_t n = 0; n < nodes_; ++n) {
+    if (is_asked[n]) asked_.push_back(n);
+  }
+}
+
 void RecordedWatch::may_be(VariableId variable, int value) {
   std::vector<int>& others = others_[index(variable)];
   if (others.empty()) open_.push_back(variable);
@@ -254,7 +284,7 @@ void RecordedWatch::begin(const RecordedState& state) {
   moment_.others.clear();
   moment_.answers.clear();
   moment_.ended.clear();
-  network_.read(state, valuation_);
+  network_.read(state, asked_, valuation_);
   moment_.values = valuation_.variables;
   moment_.has_passed = state.time > time_;
   time_ = state.time;
@@ -268,14 +298,15 @@ void RecordedWatch::note_answers(const RecordedState& state) {
   for (const NodeId root : network_.tree().roots) {
     if (has_ended_tick_[index(root)]) moment_.ended.push_back(index(root));
   }
-  for (std::size_t n = 0; n < nodes_; ++n) {
+  locations_.resize(nodes_);
+  for (const std::size_t n : asked_) {
     const bool is_new = is_first || locations_[n] != state.locations[n];
     const int code = is_new ? answer_code(state.locations[n]) : kNoAnswer;
     if (code != kNoAnswer) moment_.answers.emplace_back(n, code);
     has_ended_tick_[n] = code != kNoAnswer && root_of_[n] == n;
+    if (is_new) locations_[n] = state.locations[n];
   }
   moment_.ends_tick = has_ended_tick_[index(network_.tree().roots[0])];
-  locations_ = state.locations;
 }
 
 void RecordedWatch::note_unseen(std::size_t node, Unseen unseen,
@@ -410,13 +441,14 @@ bool RecordedWatch::take_answers(const Moment& moment, bool is_possible) {
     answers_[node] |= 1U << code;
   };
   for (const std::size_t root : moment.ended) {
-    for (std::size_t n = 0; n < nodes_; ++n) {
+    for (const std::size_t n : asked_) {
       if (root_of_[n] == root) set(n, kNoAnswer);
     }
   }
   for (const auto& [node, code] : moment.answers) set(node, code);
-  for (std::uint32_t n = 0; n < nodes_; ++n) {
-    const auto answer = answer_of(network_.network(), NodeId{n});
+  for (const std::size_t n : asked_) {
+    const auto answer =
+        answer_of(network_.network(), NodeId{static_cast<std::uint32_t>(n)});
     if (!answer) continue;
     // Whose state this is has what it answers there.
     unsigned codes = answers_[n];

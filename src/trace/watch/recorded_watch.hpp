@@ -50,7 +50,7 @@ class RecordedWatch {
   void see(const RecordedState& state, Unseen_&& unseen,
            bool is_possible = false) {
     begin(state);
-    for (std::size_t n = 0; n < nodes_; ++n) note_unseen(n, unseen(n), state);
+    for (const std::size_t n : asked_) note_unseen(n, unseen(n), state);
     finish(is_possible);
   }
   void see(const RecordedState& state) {
@@ -107,6 +107,7 @@ class RecordedWatch {
   };
 
   void bind_memory(const SourceText& source);
+  void find_asked();
   void begin(const RecordedState& state);
   void note_unseen(std::size_t node, Unseen unseen, const RecordedState& state);
   void note_anything(std::size_t node);
@@ -127,6 +128,8 @@ class RecordedWatch {
   std::vector<RuleMonitor> monitors_;
   std::vector<Past> past_;
   std::vector<std::size_t> root_of_;  // by node
+  // Nodes that some rule asks for, and roots: of others nothing is kept.
+  std::vector<std::size_t> asked_;
   std::vector<Seen> seen_;
   Moment moment_;                  // that is seen
   std::vector<Moment> loop_;       // that may have been left out
