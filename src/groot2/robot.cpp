@@ -466,7 +466,8 @@ void Robot::leave(std::vector<Diagnostic>& found) {
       file_error("BT1908", "groot2://" + address_.text(),
                  "what was injected could not be taken back: it does not "
                  "answer",
-                 "a publisher forgets it 5 s after the last request"));
+                 "where the program still runs, it forgets it 5 s after the "
+                 "last request"));
   found.back().severity = Severity::Warning;
 }
 

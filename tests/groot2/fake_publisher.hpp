@@ -61,10 +61,8 @@ class FakePublisher {
         place = static_cast<std::uint16_t>(place - 2);
       }
     }
-    for (std::size_t i = 0; i < id_.size(); ++i) {
-      id_[i] = static_cast<char>(reinterpret_cast<std::uintptr_t>(this) >>
-                                 (8 * (i % 8)));
-    }
+    static std::atomic<char> count = 0;  // each is another one
+    id_[0] = ++count;
     thread_ = std::thread([this] { serve(); });
   }
   ~FakePublisher() {

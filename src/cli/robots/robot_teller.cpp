@@ -286,9 +286,9 @@ void RobotTeller::ends(std::string_view why) {
   });
   if (is_over_) return;
   board_.remark(fmt::format(
-      "warning[BT1904]: the recording of groot2://{} has ended: {}\n"
+      "warning[{}]: the recording of groot2://{} has ended: {}\n"
       "  = help: what comes next is another one, and rules begin anew\n",
-      address_.text(), why));
+      "BT1904", address_.text(), why));
 }
 
 void RobotTeller::is_injected(std::size_t fault) {

@@ -78,8 +78,12 @@ class LiveViewer extends Viewer {
                                   Math.max(LEAST_REST, 2 * this.cost));
     };
     this.stream.onmessage = ({ data }) => waitWith(JSON.parse(data));
-    this.stream.addEventListener("verdict", ({ data }) =>
-      waitWith({ rules: JSON.parse(data) }));
+    // Told at once, and again when the state of it is there.
+    this.stream.addEventListener("verdict", ({ data }) => {
+      const rules = JSON.parse(data);
+      this.judge(rules);
+      waitWith({ rules });
+    });
   }
 
   // What has come since the last look.
@@ -126,7 +130,8 @@ class LiveViewer extends Viewer {
         element("small", {}, rule.moment,
                 rule.expected ? " (expected violated)" : ""));
       button.disabled = rule.step === undefined;
-      button.addEventListener("click", () => this.jump(rule.step));
+      button.addEventListener("click", () =>
+        this.jump(Math.min(rule.step, this.run.last)));
       return element("li", {}, button);
     }));
     const lost = rules.filter((rule) =>
