@@ -1283,8 +1283,8 @@ class Monitor {
 
   // The present state.
   void see() {
-    const bool is_new =
-        !touched_.empty() || !marked_.empty() || has_ended_ || has_passed_;
+    const bool is_new = !touched_.empty() || !marked_.empty() || has_ended_ ||
+                        has_passed_ || is_past_new_;
     if (!is_new) return;
     read_slots();
     has_ended_ = answer_in(location_[0]) != 0 && location_[0] != before_[0];
