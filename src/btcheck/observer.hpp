@@ -535,6 +535,7 @@ class Hub : public std::enable_shared_from_this<Hub> {
     {
       const Hold hold(*this);
       if (node == 1) begin_tick();
+      tell_pending_beside(node);
       tell([&](Hearer& hearer) { hearer.begins(node); });
     }
     settle();
@@ -543,9 +544,12 @@ class Hub : public std::enable_shared_from_this<Hub> {
 
   BT::NodeStatus answers(std::size_t node, BT::TreeNode& self,
                          BT::NodeStatus status) {
+    // No answer: what comes next is an exception.
+    if (status == BT::NodeStatus::IDLE && node != 1) return status;
     {
       const Hold hold(*this);
       if (!is_in_tick_) begin_tick();
+      tell_pending_beside(node);
       tell_pending_below(node);
       tell([&](Hearer& hearer) {
         hearer.answers(node, engine::status_of(status));
@@ -589,6 +593,7 @@ class Hub : public std::enable_shared_from_this<Hub> {
       tell_pending(node);
       // 3.8 has no callback where a tick begins.
       if (!is_in_tick_ && after != monitor::Status::Idle) begin_tick();
+      if (after != monitor::Status::Idle) tell_pending_beside(node);
       tell([&](Hearer& hearer) { hearer.changes(node, before, after); });
       if (node == 1 && is_ending_ && after != monitor::Status::Idle) end_tick();
     }
@@ -675,6 +680,16 @@ class Hub : public std::enable_shared_from_this<Hub> {
   }
   void tell_pending(std::size_t node) {
     tell_pending_where([&](std::size_t n) { return n == node; });
+  }
+  // Who goes on with another child has seen the answers of those before: of the
+  // node, and of those above it that may not have been heard of.
+  void tell_pending_beside(std::size_t node) {
+    for (std::size_t n = node; n != 0 && !pending_.empty();
+         n = parents_[n - 1]) {
+      tell_pending_where([&](std::size_t other) {
+        return other != n && parents_[other - 1] == parents_[n - 1];
+      });
+    }
   }
   void tell_pending_below(std::size_t parent) {
     tell_pending_where(
