@@ -1025,6 +1025,10 @@ class Observer final : private Hearer {
     if (before == monitor::Status::Running && after == monitor::Status::Idle) {
       remember(node, Happened::Halted, after);
     }
+    if (after == monitor::Status::Success ||
+        after == monitor::Status::Failure) {
+      remember(node, Happened::Answered, after);
+    }
     monitor_.change(node, before, after);
   }
 
@@ -1041,6 +1045,12 @@ class Observer final : private Hearer {
   }
 
   void remember(std::size_t node, Happened::Kind kind, monitor::Status status) {
+    // An answer and the change of status that it makes are one.
+    const Happened& last = happened_[(happened_count_ - 1) % kRemembered];
+    if (happened_count_ > 0 && last.tick == monitor_.ticks() &&
+        last.node == node && last.kind == kind && last.status == status) {
+      return;
+    }
     happened_[happened_count_++ % kRemembered] = {monitor_.ticks(), node, kind,
                                                   status};
   }
