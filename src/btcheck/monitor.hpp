@@ -651,6 +651,7 @@ class Monitor {
   // These three of what is known exactly. A node begins its tick.
   void begin_node(std::size_t node) {
     require_node(node);
+    has_set_ = 0;
     answered_[node] = Status::Idle;
     take_up(node);
   }
@@ -658,8 +659,10 @@ class Monitor {
   // It answers; a change of its status to that may follow.
   void answer(std::size_t node, Status status) {
     require_node(node);
-    enter(node);
+    const std::size_t set = std::exchange(has_set_, 0);
     answered_[node] = status;
+    if (set == node && status_[node] == status) return;
+    enter(node);
     give_answer(node, status);
   }
 
@@ -908,6 +911,7 @@ class Monitor {
 
   void change_exactly(std::size_t node, Status before, Status after) {
     status_[node] = after;
+    has_set_ = 0;
     const Status said = std::exchange(answered_[node], Status::Idle);
     if (after == Status::Idle) {
       last_[node] = kLastIdle;
@@ -923,6 +927,7 @@ class Monitor {
       touch(node);
       return see();
     }
+    has_set_ = node;
     enter(node);
     give_answer(node, after);
   }
@@ -1283,8 +1288,8 @@ class Monitor {
 
   // The present state.
   void see() {
-    const bool is_new =
-        !touched_.empty() || !marked_.empty() || has_ended_ || has_passed_;
+    const bool is_new = !touched_.empty() || !marked_.empty() || has_ended_ ||
+                        has_passed_ || is_past_new_;
     if (!is_new) return;
     read_slots();
     has_ended_ = answer_in(location_[0]) != 0 && location_[0] != before_[0];
@@ -1449,6 +1454,9 @@ class Monitor {
   std::size_t maybe_halted_ = 0;
   std::size_t halted_before_ = 0;
   std::size_t taken_up_ = 0;  // a leaf, by the change before
+  // Has set its status in its own tick, as SimpleActionNode does, and is to
+  // answer it.
+  std::size_t has_set_ = 0;
   bool has_begun_ = false;
   bool is_in_tick_ = false;
   bool has_ended_ = false;

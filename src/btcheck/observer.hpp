@@ -535,6 +535,7 @@ class Hub : public std::enable_shared_from_this<Hub> {
     {
       const Hold hold(*this);
       if (node == 1) begin_tick();
+      tell_pending_beside(node);
       tell([&](Hearer& hearer) { hearer.begins(node); });
     }
     settle();
@@ -543,9 +544,12 @@ class Hub : public std::enable_shared_from_this<Hub> {
 
   BT::NodeStatus answers(std::size_t node, BT::TreeNode& self,
                          BT::NodeStatus status) {
+    // No answer: what comes next is an exception.
+    if (status == BT::NodeStatus::IDLE && node != 1) return status;
     {
       const Hold hold(*this);
       if (!is_in_tick_) begin_tick();
+      tell_pending_beside(node);
       tell_pending_below(node);
       tell([&](Hearer& hearer) {
         hearer.answers(node, engine::status_of(status));
@@ -589,6 +593,7 @@ class Hub : public std::enable_shared_from_this<Hub> {
       tell_pending(node);
       // 3.8 has no callback where a tick begins.
       if (!is_in_tick_ && after != monitor::Status::Idle) begin_tick();
+      if (after != monitor::Status::Idle) tell_pending_beside(node);
       tell([&](Hearer& hearer) { hearer.changes(node, before, after); });
       if (node == 1 && is_ending_ && after != monitor::Status::Idle) end_tick();
     }
@@ -675,6 +680,16 @@ class Hub : public std::enable_shared_from_this<Hub> {
   }
   void tell_pending(std::size_t node) {
     tell_pending_where([&](std::size_t n) { return n == node; });
+  }
+  // Who goes on with another child has seen the answers of those before: of the
+  // node, and of those above it that may not have been heard of.
+  void tell_pending_beside(std::size_t node) {
+    for (std::size_t n = node; n != 0 && !pending_.empty();
+         n = parents_[n - 1]) {
+      tell_pending_where([&](std::size_t other) {
+        return other != n && parents_[other - 1] == parents_[n - 1];
+      });
+    }
   }
   void tell_pending_below(std::size_t parent) {
     tell_pending_where(
@@ -1010,6 +1025,10 @@ class Observer final : private Hearer {
     if (before == monitor::Status::Running && after == monitor::Status::Idle) {
       remember(node, Happened::Halted, after);
     }
+    if (after == monitor::Status::Success ||
+        after == monitor::Status::Failure) {
+      remember(node, Happened::Answered, after);
+    }
     monitor_.change(node, before, after);
   }
 
@@ -1026,6 +1045,12 @@ class Observer final : private Hearer {
   }
 
   void remember(std::size_t node, Happened::Kind kind, monitor::Status status) {
+    // An answer and the change of status that it makes are one.
+    const Happened& last = happened_[(happened_count_ - 1) % kRemembered];
+    if (happened_count_ > 0 && last.tick == monitor_.ticks() &&
+        last.node == node && last.kind == kind && last.status == status) {
+      return;
+    }
     happened_[happened_count_++ % kRemembered] = {monitor_.ticks(), node, kind,
                                                   status};
   }

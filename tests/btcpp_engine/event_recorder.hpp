@@ -118,6 +118,8 @@ class EventRecorder {
 
   void note_answer(std::size_t number, const std::string& told,
                    const BT::TreeNode& node, BT::NodeStatus status) {
+    // No answer: what comes next is an exception.
+    if (number != 1 && status == BT::NodeStatus::IDLE) return;
     const std::scoped_lock lock(mutex_);
     if (number == 1) go_on();
     note("answer " + told + " " + word_of(status));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace btcheck::reference {
 namespace {
@@ -74,22 +75,30 @@ class Player {
 
   void play() {
     show_(state_);
-    // What the node has answered that is to set its status.
+    // What the node has answered that is to set its status; or the status that
+    // it has set itself, which it is to answer.
     const EngineEvent* answer = nullptr;
+    const EngineEvent* set = nullptr;
     for (const EngineEvent& event : run_.events) {
       ++state_.events;
       if (event.what == "entry") {
         state_.entries.at(event.number) = event.value;
         continue;
       }
-      const EngineEvent* before = answer;
-      answer = event.what == "answer" ? &event : nullptr;
+      const auto is_same = [&](const EngineEvent* before) {
+        return before != nullptr && before->number == event.number &&
+               before->after == event.after;
+      };
+      const EngineEvent* answer_before = std::exchange(answer, nullptr);
+      const EngineEvent* set_before = std::exchange(set, nullptr);
       if (event.what == "change") {
         ++state_.records;
-        const bool is_set = before != nullptr &&
-                            before->number == event.number &&
-                            before->after == event.after;
-        if (!is_set) change(event.number, event.before, event.after);
+        if (is_same(answer_before)) continue;
+        if (is_end(event.after)) set = &event;
+        change(event.number, event.before, event.after);
+      } else if (event.what == "answer") {
+        answer = &event;
+        if (!is_same(set_before)) answered(event.number, event.after);
       } else {
         follow(event);
       }
@@ -106,8 +115,6 @@ class Player {
       show_(state_);
     } else if (event.what == "begin") {
       begin(event.number);
-    } else if (event.what == "answer") {
-      answered(event.number, event.after);
     } else if (event.what == "end") {
       leave_below(0);
       state_.statuses[0] = event.after;
@@ -150,6 +157,7 @@ class Player {
   void begin(std::size_t n) {
     enter_above(n);
     if (!is_out(n)) return;
+    leave_below(run_.nodes[n].parent);
     enter(n);
     if (!run_.nodes[n].has_children) return;
     state_.locations[n] = "called";
@@ -158,7 +166,10 @@ class Player {
 
   void answered(std::size_t n, const std::string& status) {
     enter_above(n);
-    if (is_out(n)) enter(n);
+    if (is_out(n)) {
+      leave_below(run_.nodes[n].parent);
+      enter(n);
+    }
     leave_below(n);
     if (status != "skipped") state_.statuses[n] = status;
     give(n, status);
@@ -180,6 +191,12 @@ class Player {
   void leave_below(std::size_t n) {
     for (std::size_t below = n + 1; below < run_.nodes.size(); ++below) {
       if (!is_below(below, n) || is_out(below)) continue;
+      // A leaf that tells no answer, such as a CoroActionNode, and runs.
+      if (!run_.nodes[below].has_children &&
+          state_.statuses[below] == "running") {
+        give(below, "running");
+        continue;
+      }
       state_.locations[below] = "start_";
       state_.called[below] = false;
       show_(state_);

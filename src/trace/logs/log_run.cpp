@@ -449,6 +449,10 @@ bool LogPlayer::let_go_below(std::size_t node) {
   const std::vector<std::size_t> below(ended, called_.end());
   called_.erase(ended, called_.end());
   return std::ranges::all_of(below, [&](std::size_t n) {
+    // A leaf that tells no answer, such as a CoroActionNode, and runs.
+    if (log_.marks && is_leaf_[n] && status_[n] == LogStatus::Running) {
+      return reach(n, "running", Phase::Running) && rest(n, Phase::Running);
+    }
     state_.locations[n] = "start_";
     state_.phases[n] =
         status_[n] == LogStatus::Idle ? Phase::Skipped : phase_of(status_[n]);

@@ -163,6 +163,8 @@ class LogPlayer {
   std::size_t mark_ = 0;         // that is played next
   // What a node has just answered.
   std::optional<std::pair<std::size_t, LogStatus>> has_said_;
+  // Has set its own status so, by the record before, and is to answer that.
+  std::optional<std::pair<std::size_t, LogStatus>> has_set_;
 };
 
 }  // namespace btcheck

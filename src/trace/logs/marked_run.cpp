@@ -22,9 +22,9 @@ bool LogPlayer::play_marks(const std::function<bool()>& see) {
 }
 
 bool LogPlayer::play(const LogMark& mark) {
-  if (mark.kind != MarkKind::Record && mark.kind != MarkKind::Entry) {
-    has_said_.reset();
-  }
+  const bool is_entry = mark.kind == MarkKind::Entry;
+  if (mark.kind != MarkKind::Record && !is_entry) has_said_.reset();
+  if (mark.kind != MarkKind::NodeAnswers && !is_entry) has_set_.reset();
   switch (mark.kind) {
     case MarkKind::TickBegins:
     case MarkKind::TickIsWoken:
@@ -73,15 +73,19 @@ bool LogPlayer::play_again(const LogMark& again) {
 bool LogPlayer::begin_node(std::size_t node) {
   if (!call_above(node)) return false;
   if (state_.locations[node] != "start_") return true;
+  if (!let_go_below(*heading_.nodes[node].parent)) return false;
   called_.push_back(node);
   return reach(node, "tick_node", Phase::Here) &&
          (is_leaf_[node] || reach(node, "called", Phase::Waiting));
 }
 
 bool LogPlayer::hear_answer(std::size_t node, LogStatus status) {
+  const auto set = std::exchange(has_set_, std::nullopt);
+  if (set == std::pair(node, status)) return true;
   if (!call_above(node)) return false;
   if (state_.locations[node] == "start_" &&
-      !reach(node, "tick_node", Phase::Here)) {
+      !(let_go_below(*heading_.nodes[node].parent) &&
+        reach(node, "tick_node", Phase::Here))) {
     return false;
   }
   has_said_ = {node, status};
@@ -112,6 +116,7 @@ bool LogPlayer::change(const LogTransition& record) {
       if (said == std::pair(node, record.after)) return true;
       if (!hear_answer(node, record.after)) return false;
       has_said_.reset();
+      has_set_ = {node, record.after};
       return true;
     case LogStatus::Idle:
       break;
