@@ -18,6 +18,7 @@
 #include "btcpp_random/monitored.hpp"
 #include "btcpp_random/naive_rules.hpp"
 #include "btcpp_random/scripted_run.hpp"
+#include "check/check.hpp"
 #include "file_text.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree_file.hpp"

@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "ltl/formula/formula.hpp"
 #include "model/tree/node_types.hpp"
@@ -237,14 +239,20 @@ class PropertyBinder {
     const TimedClaim& claim = property.timed;
     BoundPattern& timed = bound.timed;
     bool is_bound = true;
+    // One that plays two parts is one proposition: `whenever P then P within 2
+    // ticks` cannot be broken.
+    std::map<std::pair<FormulaId, bool>, PropositionSet> known;
     const auto bit = [&](std::optional<FormulaId> formula,
                          bool is_lasting = false) -> PropositionSet {
       if (!formula) return 0;
+      PropositionSet& same = known[{*formula, is_lasting}];
+      if (same != 0) return same;
       auto predicate = is_lasting ? not_refuted(*formula) : certain(*formula);
       if (!predicate) return is_bound = false;
       timed.predicates.push_back(std::move(*predicate));
       timed.texts.push_back(formula_text(file_, *formula));
-      return PropositionSet{1} << (timed.predicates.size() - 1);
+      same = PropositionSet{1} << (timed.predicates.size() - 1);
+      return same;
     };
     timed.pattern = {
         .trigger = bit(claim.trigger),
