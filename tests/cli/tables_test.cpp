@@ -72,11 +72,24 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
       line.emplace_back("--from=robot.btlog@1");
     }
   }
+  if (option.name == "--namespace") line.emplace_back("--to=monitor-cpp");
+  if (command.command == Command::Watch) {
+    line.at(2) = "groot2://robot";
+    const bool injects = option.name == "--inject" ||
+                         option.name == "--break" ||
+                         option.name == "--break-for";
+    if (injects) line.emplace_back("--allow-inject");
+    const bool goes_with =
+        option.name == "--break-for" || option.name == "--allow-inject";
+    if (goes_with) line.emplace_back("--break=dock");
+  }
   line.emplace_back(option.name);
   if (option.may_stand_alone) {
     line.back() += '=' + value;
   } else if (option.kind() != ValueKind::Flag) {
-    line.push_back(value);
+    const bool is_log =
+        command.command == Command::Watch && option.name == "-o";
+    line.push_back(is_log ? value + ".btlog" : value);
   }
   std::vector<const char*> argv;
   for (const std::string& word : line) argv.push_back(word.c_str());
@@ -89,6 +102,8 @@ std::vector<std::string> values_of(const OptionRow& option) {
   if (option.name == "--memory") values.push_back("1G");
   if (option.name == "--shard") values.push_back("1/2");
   if (option.name == "--deny") values = {"warnings", "BT2205"};
+  if (option.name == "--namespace") values = {"robot::rules", "_a"};
+  if (option.name == "--inject") values = {"dock fails"};
   if (values.empty()) values.push_back("7");
   return values;
 }

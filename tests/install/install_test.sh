@@ -63,7 +63,8 @@ ask() {  # ask WORD…: a project that looks for btcheck with these words
   printf 'cmake_minimum_required(VERSION 3.16)\nproject(asks CXX)\n%s\n' \
     "find_package(btcheck $*)" >asks/CMakeLists.txt
   rm -rf asks-build
-  cmake -S asks -B asks-build -DCMAKE_PREFIX_PATH="$folder/alone" >log 2>&1
+  cmake -S asks -B asks-build -DCMAKE_PREFIX_PATH="$folder/alone" \
+    -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF >log 2>&1
 }
 why="there is no $folder/alone/lib.*/libbtcheck.a and .*libbtcheck_run.a"
 ask REQUIRED COMPONENTS observer && fail "an observer without an engine"
@@ -94,7 +95,8 @@ add_executable(observed observed.cpp)
 target_link_libraries(observed PRIVATE btcheck::observer)
 END
 rm -rf asks-build
-cmake -S asks -B asks-build "-DCMAKE_PREFIX_PATH=$folder/alone;$folder/engine" >log 2>&1 &&
+cmake -S asks -B asks-build -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF \
+  "-DCMAKE_PREFIX_PATH=$folder/alone;$folder/engine" >log 2>&1 &&
   cmake --build asks-build >log 2>&1 && asks-build/observed ||
   fail "the observer is not found, or not built"
 ask REQUIRED || fail "the program alone is not found"

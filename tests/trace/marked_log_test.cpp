@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <optional>
 #include <random>
 #include <set>
 #include <string>
@@ -92,18 +93,22 @@ class NaivePlayer {
   }
 
   void begin_tick(bool is_woken) {
+    has_set_.reset();
     writer_.begin_tick(100'000, is_woken);
     ++now_.tick;
     go(0, "tick_node");
     go(0, "called");
   }
   void begin(std::size_t n) {
+    has_set_.reset();
     writer_.begin_node(static_cast<std::uint16_t>(n));
     enter(n);
   }
   void answer(std::size_t n, LogStatus status) {
     writer_.answer(static_cast<std::uint16_t>(n), status);
-    settle(n, status);
+    const bool is_told = has_set_ == std::pair(n, status);
+    has_set_.reset();
+    if (!is_told) settle(n, status);
     if (status == kSkipped || said_[n] == status) return;
     writer_.change(static_cast<std::uint16_t>(n), status);
     said_[n] = status;
@@ -112,6 +117,7 @@ class NaivePlayer {
   void change(std::size_t n, LogStatus status) {
     if (said_[n] == status) return;
     writer_.change(static_cast<std::uint16_t>(n), status);
+    has_set_.reset();
     const LogStatus before = std::exchange(said_[n], status);
     if (status == kRunning) {
       enter(n);
@@ -119,6 +125,7 @@ class NaivePlayer {
       show();
     } else if (status != kIdle) {
       settle(n, status);
+      has_set_ = {n, status};
     } else {
       now_.statuses[n] = "idle";
       if (before == kRunning && now_.locations[n] == "start_") {
@@ -131,6 +138,7 @@ class NaivePlayer {
     }
   }
   void end_tick(LogStatus status) {
+    has_set_.reset();
     writer_.end_tick(status);
     let_go(0);
     now_.statuses[0] = word(status);
@@ -140,6 +148,7 @@ class NaivePlayer {
     pass();
   }
   void leave_tick() {
+    has_set_.reset();
     writer_.leave_tick("out of power");
     for (auto& location : now_.locations) {
       if (location == "called" || location == "tick_node") location = "start_";
@@ -187,6 +196,7 @@ class NaivePlayer {
   void enter(std::size_t n) {
     call_above(n);
     if (now_.locations[n] != "start_") return;
+    let_go(kParents[n]);
     order_.push_back(n);
     go(n, "tick_node");
     if (!kIsLeaf[n]) go(n, "called");
@@ -199,12 +209,19 @@ class NaivePlayer {
     for (const std::size_t n : std::vector(order_)) {
       if (n == above || !is_below(n, above)) continue;
       std::erase(order_, n);
+      if (kIsLeaf[n] && said_[n] == kRunning) {
+        go(n, "running");
+        go(n, "done");
+      }
       go(n, "start_");
     }
   }
   void settle(std::size_t n, LogStatus status) {
     call_above(n);
-    if (now_.locations[n] == "start_") go(n, "tick_node");
+    if (now_.locations[n] == "start_") {
+      let_go(kParents[n]);
+      go(n, "tick_node");
+    }
     let_go(n);
     std::erase(order_, n);
     if (status != kSkipped) now_.statuses[n] = word(status);
@@ -218,6 +235,8 @@ class NaivePlayer {
   std::vector<Seen> seen_;
   std::vector<std::size_t> order_;  // of those in their tick
   LogStatus said_[kCount] = {};
+  // Has set its own status, and is to answer that.
+  std::optional<std::pair<std::size_t, LogStatus>> has_set_;
 };
 
 TEST_CASE("a marked log is played as its marks say, state by state") {

@@ -325,15 +325,16 @@ constexpr CodeRow kCommandCodes[] = {
          "so the log is read up to there.",
      .help = "Write the log to a faster disk.",
      .severity = Severity::Warning,
-     .example = {.command =
-                     R"($ xml='<root BTCPP_format="4"><BehaviorTree ID="M" )"
-                     R"(_fullpath=""><A _uid="1"/></BehaviorTree></root>'; )"
-                     R"({ printf 'BTCPP4-FileLogger2\1\134\0\0\0%s' "$xml"; )"
-                     R"(head -c 8 /dev/zero; } > robot.btlog; )"
-                     R"({ printf 'btcheck-marks\1\4'; head -c 8 /dev/zero; )"
-                     R"(printf '\165\222\321\026\044\232\337\364\0\13'; } )"
-                     R"(> robot.btlog.marks)"
-                     "\ntrace robot.btlog --to text"}},
+     .example =
+         {.command =
+              "$ echo "
+              "QlRDUFA0LUZpbGVMb2dnZXIyAVwAAAA8cm9vdCBCVENQUF9mb3JtYXQ9IjQi"
+              "PjxCZWhhdmlvclRyZWUgSUQ9Ik0iIF9mdWxscGF0aD0iIj48QSBfdWlkPSIx"
+              "Ii8+PC9CZWhhdmlvclRyZWU+PC9yb290PgAAAAAAAAAA"
+              " | base64 -d >robot.btlog; echo "
+              "YnRjaGVjay1tYXJrcwEEAAAAAAAAAAB1ktEWJJrf9AAL"
+              " | base64 -d >robot.btlog.marks\n"
+              "trace robot.btlog --to text"}},
     {.code = "BT1401",
      .summary = "a script names a leaf that does not exist",
      .description = "Before the colon stands the name of a leaf or of a "
