@@ -35,7 +35,8 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
       continue;
     }
     line.emplace_back(needed.name);
-    line.push_back(choices_of(needed)[0]);
+    line.push_back(option.name == "--namespace" ? "monitor-cpp"
+                                                : choices_of(needed)[0]);
   }
   if (option.name == "--ticks" || option.name == "-o") {
     if (command.command == Command::Simulate) line.push_back("--seed=1");
@@ -68,11 +69,11 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
   if (option.name == "--tick-gap") {
     if (command.command == Command::Conform) {
       line.emplace_back("--learn-leaves=new.leaves");
-    } else if (command.command != Command::Trace) {
+    } else if (command.command != Command::Trace &&
+               command.command != Command::Watch) {
       line.emplace_back("--from=robot.btlog@1");
     }
   }
-  if (option.name == "--namespace") line.emplace_back("--to=monitor-cpp");
   if (command.command == Command::Watch) {
     line.at(2) = "groot2://robot";
     const bool injects = option.name == "--inject" ||
