@@ -16,6 +16,7 @@
 #include "cli/options/tables.hpp"
 #include "cli/options/words.hpp"
 #include "model/tree_file.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck {
 namespace {

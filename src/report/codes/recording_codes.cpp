@@ -190,15 +190,15 @@ constexpr CodeRow kRecordingCodes[] = {
          "tick it does not log, and where that decides something it is not "
          "guessed.",
      .help = "Attach btcheck::observer to the tree, or say --tick-gap.",
-     .example = {.body = "<Grab/>",
-                 .models = "<Action ID=\"Grab\"/>",
-                 .command =
-                     R"($ xml='<root><BehaviorTree ID="MainTree">)"
-                     R"(<Grab _uid="1"/></BehaviorTree></root>'; )"
-                     R"({ printf 'BTCPP4-FileLogger2\1\%o\0\0\0%s' )"
-                     R"(${#xml} "$xml"; printf '%017d' 0 | tr 0 '\0'; } )"
-                     "> robot.btlog\n"
-                     "tree.xml --from robot.btlog@1"}}};
+     .example = {
+         .body = "<Grab/>",
+         .models = "<Action ID=\"Grab\"/>",
+         .command = "$ echo "
+                    "QlRDUFA0LUZpbGVMb2dnZXIyAUgAAAA8cm9vdD48QmVoYXZpb3JUcmVlIE"
+                    "lEPSJNYWluVHJlZSI+PEdyYWIgX3VpZD0iMSIvPjwvQmVoYXZpb3JUcmVl"
+                    "Pjwvcm9vdD4AAAAAAAAAAAAAAAAAAAEAAQ=="
+                    " | base64 -d >robot.btlog\n"
+                    "tree.xml --from robot.btlog@1"}}};
 
 }  // namespace
 
