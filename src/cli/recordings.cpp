@@ -157,8 +157,7 @@ LogReading reading_of(const Options& options) {
   return reading;
 }
 
-std::optional<Result<InputFile>> marks_beside(const Options& options,
-                                              const std::string& name,
+std::optional<Result<InputFile>> marks_beside(const std::string& name,
                                               std::string_view bytes) {
   const std::string marks = name + std::string(kMarksEnding);
   std::error_code error;
@@ -166,7 +165,10 @@ std::optional<Result<InputFile>> marks_beside(const Options& options,
       !std::filesystem::exists(marks, error)) {
     return std::nullopt;
   }
-  return read_file_in(options.roots, marks);
+  // As the log, which was named, it may lie outside of the roots; it must not
+  // lead out of its folder.
+  const std::string folder = std::filesystem::path(name).parent_path().string();
+  return read_file_in({folder.empty() ? "." : folder}, marks);
 }
 
 Result<BehaviorLog> read_whole_log(const Options& options,
@@ -175,7 +177,7 @@ Result<BehaviorLog> read_whole_log(const Options& options,
                                    const Limits& limits) {
   auto log = read_log(name, bytes, options.topic, limits);
   if (!log.value) return log;
-  auto marks = marks_beside(options, name, bytes);
+  auto marks = marks_beside(name, bytes);
   if (!marks) return log;
   add(log.diagnostics, std::move(marks->diagnostics));
   if (marks->value) {

@@ -24,8 +24,7 @@ Result<BehaviorLog> read_whole_log(const Options& options,
                                    std::string_view bytes,
                                    const Limits& limits);
 // The bytes of these marks; nothing where there are none.
-std::optional<Result<InputFile>> marks_beside(const Options& options,
-                                              const std::string& name,
+std::optional<Result<InputFile>> marks_beside(const std::string& name,
                                               std::string_view bytes);
 
 // The rules of --prop and -e, to be asked of a log that grows; nothing, and

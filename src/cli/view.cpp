@@ -39,23 +39,20 @@ auto stamp_of(const std::string& name) {
                     marks.st_mtim.tv_sec, marks.st_mtim.tv_nsec);
 }
 
-std::vector<Diagnostic> reread(const Options& options, const InputFile& file,
-                               LiveLog& log) {
-  const auto marks = marks_beside(options, file.name, file.text);
+std::vector<Diagnostic> reread(const InputFile& file, LiveLog& log) {
+  const auto marks = marks_beside(file.name, file.text);
   if (marks && !marks->value) return marks->diagnostics;
   return log.take(file.text, marks ? &marks->value->text.text() : nullptr);
 }
 
-std::vector<Diagnostic> reread(const Options& options, const std::string& name,
-                               LiveLog& log) {
+std::vector<Diagnostic> reread(const std::string& name, LiveLog& log) {
   const auto file = read_file(name);
-  return file.value ? reread(options, *file.value, log) : file.diagnostics;
+  return file.value ? reread(*file.value, log) : file.diagnostics;
 }
 
 // Until it is interrupted; or until the log is beyond reading, which is
 // returned.
-std::vector<Diagnostic> follow(const Options& options, const std::string& name,
-                               LiveLog& log) {
+std::vector<Diagnostic> follow(const std::string& name, LiveLog& log) {
   auto stamp = stamp_of(name);
   std::vector<Diagnostic> flaws;
   Clock::time_point good = Clock::now();
@@ -66,7 +63,7 @@ std::vector<Diagnostic> follow(const Options& options, const std::string& name,
     if (now != stamp || !flaws.empty()) {
       const Clock::time_point begin = Clock::now();
       stamp = now;
-      flaws = reread(options, name, log);
+      flaws = reread(name, log);
       rest = std::max<Clock::duration>(kLook, 4 * (Clock::now() - begin));
     }
     if (flaws.empty()) good = Clock::now();
@@ -87,7 +84,7 @@ ExitCode view_log(const Options& options, const InputFile& file) {
   auto rules = live_rules(options, file.name);
   if (!rules) return ExitCode::BadInput;
   LiveLog log(file.name, reading_of(options), options.topic, std::move(*rules));
-  std::vector<Diagnostic> flaws = reread(options, file, log);
+  std::vector<Diagnostic> flaws = reread(file, log);
   if (!flaws.empty()) {
     show(options, flaws);
     return ExitCode::BadInput;
@@ -96,7 +93,7 @@ ExitCode view_log(const Options& options, const InputFile& file) {
   const BudgetScope own_way(nullptr);
   LiveServer server(log.run());
   if (!open_view(options, server)) return ExitCode::BadInput;
-  flaws = follow(options, file.name, log);
+  flaws = follow(file.name, log);
   log.end(flaws.empty() ? "btcheck follows the log no longer"
                         : "the log cannot be read any further");
   server.finish(kViewPatience);

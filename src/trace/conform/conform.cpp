@@ -787,12 +787,7 @@ class WantedEvents {
       is_in_tick_ = false;
     }
     if (is_over(tick_)) return;
-    if (mark.kind == MarkKind::NodeAnswers) {
-      wanted_.push_back({{nodes_.node(mark.uid), mark.status},
-                         std::min(record_, log_.transitions.size() - 1),
-                         tick_,
-                         true});
-    }
+    if (mark.kind == MarkKind::NodeAnswers) take_answer(mark);
     if (mark.kind == MarkKind::WasBefore) ++record_;
     if (mark.kind != MarkKind::Record) return;
     // A thread sets what its node answers in the next tick.
@@ -800,6 +795,22 @@ class WantedEvents {
         !is_in_tick_ && log_.transitions[record_].after != LogStatus::Idle;
     take_record(is_ahead ? tick_ + 1 : tick_);
     ++record_;
+  }
+
+  // A node that has set its status by itself, such as SimpleActionNode, answers
+  // behind that record, where others answer before it.
+  void take_answer(const LogMark& mark) {
+    const LogEvent event{nodes_.node(mark.uid), mark.status};
+    const auto is_one = [&](std::size_t behind, bool is_answer) {
+      if (wanted_.size() < behind) return false;
+      const Wanted& wanted = wanted_[wanted_.size() - behind];
+      return wanted.event == event && wanted.tick == tick_ &&
+             wanted.is_answer == is_answer;
+    };
+    const bool has_set = is_one(1, false) && !is_one(2, true);
+    wanted_.insert(
+        wanted_.end() - (has_set ? 1 : 0),
+        {event, std::min(record_, log_.transitions.size() - 1), tick_, true});
   }
 
   void take_record(std::int64_t tick) {
