@@ -5,9 +5,9 @@
 //     run_publisher PORT SECONDS LEGS TICK_MS [LOG.btlog]
 //
 // ticks a tree of 8 nodes for each leg, and some more, and writes the same with
-// FileLogger2. The first tick is two seconds late, so that somebody may look on.
-// Every four seconds another of twelve alarms fails for the first time; a line
-// says which, and when: microseconds since 1970.
+// FileLogger2. The first tick is two seconds late, so that somebody may look
+// on. Every four seconds another of twelve alarms fails for the first time; a
+// line says which, and when: microseconds since 1970.
 #include <behaviortree_cpp/bt_factory.h>
 #include <behaviortree_cpp/loggers/bt_file_logger_v2.h>
 #include <behaviortree_cpp/loggers/groot2_publisher.h>
