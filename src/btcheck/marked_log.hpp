@@ -87,58 +87,52 @@ class MarkedLog {
   void end_tick(monitor::Status answer) {
     Bytes bytes(Mark::TickEnds);
     add_time(bytes);
-    bytes.add(static_cast<std::uint8_t>(answer));
+    bytes.push_back(static_cast<std::uint8_t>(answer));
     push(bytes);
   }
   void leave_tick() {
     Bytes bytes(Mark::TickIsLeft);
     add_time(bytes);
-    bytes.add(0);  // without a text: the observer does not hear what was thrown
+    // Without a text: the observer does not hear what was thrown.
+    bytes.push_back(0);
     push(bytes);
   }
   void begin_node(std::size_t node) {
     Bytes bytes(Mark::NodeBegins);
-    bytes.add_number(heading_.uids[node - 1]);
+    add_number(bytes, heading_.uids[node - 1]);
     push(bytes);
   }
   void answer(std::size_t node, monitor::Status status) {
     Bytes bytes(Mark::NodeAnswers);
-    bytes.add_number(heading_.uids[node - 1]);
-    bytes.add(static_cast<std::uint8_t>(status));
+    add_number(bytes, heading_.uids[node - 1]);
+    bytes.push_back(static_cast<std::uint8_t>(status));
     push(bytes);
   }
   void change(std::size_t node, monitor::Status before, monitor::Status after) {
     Bytes bytes(Mark::Record);
-    const auto time = static_cast<std::uint64_t>(since_begin());
-    for (unsigned i = 0; i < 6; ++i) {
-      bytes.add(static_cast<std::uint8_t>(time >> (8 * i)));
-    }
-    const std::uint16_t uid = heading_.uids[node - 1];
-    bytes.add(static_cast<std::uint8_t>(uid & 0xffU));
-    bytes.add(static_cast<std::uint8_t>(uid >> 8U));
-    bytes.add(static_cast<std::uint8_t>(after));
+    add_bytes(bytes, static_cast<std::uint64_t>(since_begin()), 6);
+    add_bytes(bytes, heading_.uids[node - 1], 2);
+    bytes.push_back(static_cast<std::uint8_t>(after));
     (void)before;  // readers know it from the record before
     push(bytes);
   }
   void entry(std::size_t entry, const monitor::EntryValue& value) {
     Bytes bytes(Mark::Entry);
-    bytes.add_number(entry);
-    bytes.add(static_cast<std::uint8_t>(value.kind));
+    add_number(bytes, entry);
+    bytes.push_back(static_cast<std::uint8_t>(value.kind));
     if (value.kind == monitor::EntryValue::Integer) {
       const auto bits = static_cast<std::uint64_t>(value.integer);
-      bytes.add_number((bits << 1U) ^
-                       (value.integer < 0 ? ~std::uint64_t{0} : 0));
+      add_number(bytes,
+                 (bits << 1U) ^ (value.integer < 0 ? ~std::uint64_t{0} : 0));
     } else if (value.kind == monitor::EntryValue::Real) {
       std::uint64_t bits = 0;
       std::memcpy(&bits, &value.real, sizeof bits);
-      for (unsigned i = 0; i < 8; ++i) {
-        bytes.add(static_cast<std::uint8_t>(bits >> (8 * i)));
-      }
+      add_bytes(bytes, bits, 8);
     } else if (value.kind == monitor::EntryValue::Text) {
       const std::size_t length = std::min(value.text.size(), Bytes::kMostText);
-      bytes.add_number(length);
+      add_number(bytes, length);
       for (std::size_t i = 0; i < length; ++i) {
-        bytes.add(static_cast<std::uint8_t>(value.text[i]));
+        bytes.push_back(static_cast<std::uint8_t>(value.text[i]));
       }
     }
     push(bytes);
@@ -163,15 +157,8 @@ class MarkedLog {
   class Bytes {
    public:
     static constexpr std::size_t kMostText = 200;  // of a longer text so much
-    explicit Bytes(Mark mark) { add(static_cast<std::uint8_t>(mark)); }
-    void add(std::uint8_t byte) { bytes_[size_++] = byte; }
-    // LEB128
-    void add_number(std::uint64_t number) {
-      for (; number >= 0x80U; number >>= 7U) {
-        add(static_cast<std::uint8_t>(number | 0x80U));
-      }
-      add(static_cast<std::uint8_t>(number));
-    }
+    explicit Bytes(Mark mark) { push_back(static_cast<std::uint8_t>(mark)); }
+    void push_back(std::uint8_t byte) { bytes_[size_++] = byte; }
     const std::uint8_t* data() const { return bytes_; }
     std::uint8_t size() const { return size_; }
 
@@ -180,6 +167,22 @@ class MarkedLog {
     std::uint8_t size_ = 0;
   };
 
+  // LEB128.
+  template <class Bytes_>
+  static void add_number(Bytes_& bytes, std::uint64_t number) {
+    for (; number >= 0x80U; number >>= 7U) {
+      bytes.push_back(static_cast<std::uint8_t>(number | 0x80U));
+    }
+    bytes.push_back(static_cast<std::uint8_t>(number));
+  }
+  // Little endian, so many bytes.
+  template <class Bytes_>
+  static void add_bytes(Bytes_& bytes, std::uint64_t number, unsigned count) {
+    for (unsigned i = 0; i < count; ++i) {
+      bytes.push_back(static_cast<std::uint8_t>(number >> (8 * i)));
+    }
+  }
+
   std::int64_t since_begin() const {
     return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() -
                                                                  begin_)
@@ -187,7 +190,7 @@ class MarkedLog {
   }
   void add_time(Bytes& bytes) {
     const std::int64_t now = since_begin();
-    bytes.add_number(static_cast<std::uint64_t>(now - last_time_));
+    add_number(bytes, static_cast<std::uint64_t>(now - last_time_));
     last_time_ = now;
   }
 
@@ -319,16 +322,9 @@ class MarkedLog {
     open();
     for (std::size_t uid = 1; uid < status_.size(); ++uid) {
       if (status_[uid] == 0) continue;
-      const std::uint8_t record[] = {0,
-                                     0,
-                                     0,
-                                     0,
-                                     0,
-                                     0,
-                                     static_cast<std::uint8_t>(uid & 0xffU),
-                                     static_cast<std::uint8_t>(uid >> 8U),
-                                     status_[uid]};
-      records_.insert(records_.end(), record, record + sizeof record);
+      add_bytes(records_, 0, 6);
+      add_bytes(records_, uid, 2);
+      records_.push_back(status_[uid]);
       marks_.push_back(static_cast<std::uint8_t>(Mark::Before));
     }
   }
@@ -370,32 +366,21 @@ class MarkedLog {
     const auto add_text = [&](std::string_view text) {
       bytes.insert(bytes.end(), text.begin(), text.end());
     };
-    const auto add = [&](std::uint64_t number, unsigned count) {
-      for (unsigned i = 0; i < count; ++i) {
-        bytes.push_back(static_cast<std::uint8_t>(number >> (8 * i)));
-      }
-    };
     add_text("BTCPP4-FileLogger2");
-    add(1, 1);
-    add(heading_.xml.size(), 4);
+    add_bytes(bytes, 1, 1);
+    add_bytes(bytes, heading_.xml.size(), 4);
     add_text(heading_.xml);
-    add(static_cast<std::uint64_t>(since_1970), 8);
+    add_bytes(bytes, static_cast<std::uint64_t>(since_1970), 8);
     size_ = bytes.size();
     put_into(log_.get(), bytes);
     add_text(kMagic);
-    add(kVersion, 1);
-    add(static_cast<std::uint64_t>(heading_.engine), 1);
-    add(static_cast<std::uint64_t>(since_1970), 8);
-    add(monitor::fingerprint(heading_.xml), 8);
-    const auto add_number = [&](std::uint64_t number) {
-      for (; number >= 0x80U; number >>= 7U) {
-        bytes.push_back(static_cast<std::uint8_t>(number | 0x80U));
-      }
-      bytes.push_back(static_cast<std::uint8_t>(number));
-    };
-    add_number(heading_.entries.size());
+    add_bytes(bytes, kVersion, 1);
+    add_bytes(bytes, static_cast<std::uint64_t>(heading_.engine), 1);
+    add_bytes(bytes, static_cast<std::uint64_t>(since_1970), 8);
+    add_bytes(bytes, monitor::fingerprint(heading_.xml), 8);
+    add_number(bytes, heading_.entries.size());
     for (const std::string& entry : heading_.entries) {
-      add_number(entry.size());
+      add_number(bytes, entry.size());
       add_text(entry);
     }
     size_ += bytes.size();

@@ -278,14 +278,15 @@ class TableReader {
     }
   }
 
+  bool is_at_blank() const { return text_[at_] == ' ' || text_[at_] == '\n'; }
+  void skip_blanks() {
+    while (at_ < text_.size() && is_at_blank()) ++at_;
+  }
+
   std::string_view word() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n')) {
-      ++at_;
-    }
+    skip_blanks();
     const std::size_t begin = at_;
-    while (at_ < text_.size() && text_[at_] != ' ' && text_[at_] != '\n') {
-      ++at_;
-    }
+    while (at_ < text_.size() && !is_at_blank()) ++at_;
     return text_.substr(begin, at_ - begin);
   }
 
@@ -321,9 +322,7 @@ class TableReader {
 
   // `\022` for a byte that cannot stand as it is.
   std::string quoted() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n')) {
-      ++at_;
-    }
+    skip_blanks();
     if (at_ >= text_.size() || text_[at_] != '"') refuse("`\"` expected");
     std::string result;
     for (++at_; at_ < text_.size() && text_[at_] != '"'; ++at_) {

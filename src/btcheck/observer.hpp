@@ -377,7 +377,7 @@ class Hearer {
 
 // One for each tree, however many observe it: the engine has room for one
 // callback of a kind.
-class Hub : public std::enable_shared_from_this<Hub> {
+class Hub {
  public:
   static std::shared_ptr<Hub> of(BT::Tree& tree) {
     static std::mutex mutex;
@@ -439,7 +439,10 @@ class Hub : public std::enable_shared_from_this<Hub> {
   void leave_call(bool has_thrown) {
     is_in_call_ = false;
     if (!has_thrown) return;
-    leave_tick();
+    {
+      const Hold hold(*this);
+      leave_tick();
+    }
     settle();
   }
 
@@ -555,24 +558,16 @@ class Hub : public std::enable_shared_from_this<Hub> {
         hearer.answers(node, engine::status_of(status));
       });
       if (node == 1) {
-        const bool will_change =
-            status != self.status() &&
-            engine::status_of(status) != monitor::Status::Skipped;
         answer_ = engine::status_of(status);
-        is_ending_ = will_change;
+        is_ending_ =
+            status != self.status() && answer_ != monitor::Status::Skipped;
       }
     }
     settle();
     if (node != 1) return BT::NodeStatus::IDLE;
     raise();
     if (wants_halt()) return halt_in_tick(self, status);
-    if (!is_ending_) {
-      {
-        const Hold hold(*this);
-        end_tick();
-      }
-      settle();
-    }
+    end_unless_changing();
     return BT::NodeStatus::IDLE;
   }
 
@@ -600,15 +595,12 @@ class Hub : public std::enable_shared_from_this<Hub> {
     if (is_of_tick) settle();
   }
 
-  // --- Ticks; the lock is held ---
+  // --- Ticks; the lock is held by who calls the first three ---
 
   void begin_tick() {
-    if (is_in_tick_) {
-      tell([](Hearer& hearer) { hearer.tick_is_left(); });
-    }
+    leave_tick();
     ticking_thread_ = std::this_thread::get_id();
     is_in_tick_ = true;
-    is_ending_ = false;
     const bool is_wake_up = is_in_call_ && ticks_of_call_++ > 0;
     tell([&](Hearer& hearer) { hearer.tick_begins(is_wake_up); });
   }
@@ -617,12 +609,20 @@ class Hub : public std::enable_shared_from_this<Hub> {
     is_ending_ = false;
     tell([this](Hearer& hearer) { hearer.tick_ends(answer_); });
   }
+  // By an exception, if it has not ended.
   void leave_tick() {
-    const Hold hold(*this);
-    if (!is_in_tick_) return;
-    is_in_tick_ = false;
     is_ending_ = false;
+    if (!std::exchange(is_in_tick_, false)) return;
     tell([](Hearer& hearer) { hearer.tick_is_left(); });
+  }
+  // The change of the top node's status ends it, if there is one to come.
+  void end_unless_changing() {
+    if (is_ending_) return;
+    {
+      const Hold hold(*this);
+      end_tick();
+    }
+    settle();
   }
 
   // The mission ends: all that runs is halted, and the tree fails. Where it
@@ -637,13 +637,7 @@ class Hub : public std::enable_shared_from_this<Hub> {
       status = BT::NodeStatus::FAILURE;
     }
     is_ending_ = root.status() != status;
-    if (!is_ending_) {
-      {
-        const Hold hold(*this);
-        end_tick();
-      }
-      settle();
-    }
+    end_unless_changing();
     return status;
   }
   BT::NodeStatus end_by_halt(BT::TreeNode& root) {
@@ -772,12 +766,7 @@ class Observer final : private Hearer {
   }
   BT::NodeStatus tickWhileRunning(
       std::chrono::milliseconds sleep = std::chrono::milliseconds(10)) {
-    BT::NodeStatus status = tickOnce();
-    while (status == BT::NodeStatus::RUNNING) {
-      tree_.sleep(sleep);
-      status = tickOnce();
-    }
-    return status;
+    return while_running([this] { return tickOnce(); }, sleep);
   }
 #else
   BT::NodeStatus tickRoot() {
@@ -785,12 +774,7 @@ class Observer final : private Hearer {
   }
   BT::NodeStatus tickRootWhileRunning(
       std::chrono::milliseconds sleep = std::chrono::milliseconds(10)) {
-    BT::NodeStatus status = tickRoot();
-    while (status == BT::NodeStatus::RUNNING) {
-      tree_.sleep(sleep);
-      status = tickRoot();
-    }
-    return status;
+    return while_running([this] { return tickRoot(); }, sleep);
   }
 #endif
 
@@ -938,6 +922,16 @@ class Observer final : private Hearer {
       hub_->leave_call(true);
       throw;
     }
+  }
+
+  template <class Tick_>
+  BT::NodeStatus while_running(Tick_ tick, std::chrono::milliseconds sleep) {
+    BT::NodeStatus status = tick();
+    while (status == BT::NodeStatus::RUNNING) {
+      tree_.sleep(sleep);
+      status = tick();
+    }
+    return status;
   }
 
   void lend_verdicts() {

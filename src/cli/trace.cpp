@@ -122,11 +122,7 @@ std::optional<RecordedRun> run_of_log(const std::string& file,
   constexpr std::size_t kMostCells = std::size_t{1}
                                      << 22;  // states times nodes
   LogPlayer player(log, reading);
-  RecordedRun run = player.heading();
-  run.tree = file;
-  run.property = log.tree.empty() ? "log" : log.tree;
-  run.formula = "a log of BehaviorTree.CPP; no property is checked";
-  run.verdict = "LOG";
+  RecordedRun run = titled(player.heading(), file, log);
   bool is_small = true;
   player.play([&] {
     ask_budget();

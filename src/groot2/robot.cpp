@@ -58,6 +58,15 @@ class Comparison {
     if (now_[node] != wanted_[node]) ++different_;
   }
   bool is_met() const { return different_ == 0; }
+  // Once some of these have been made.
+  template <class Place>
+  bool is_met_by(const std::vector<Change>& changes, const Place& place_of) {
+    for (const Change& each : changes) {
+      if (is_met()) break;
+      change(place_of(each.uid), each.after);
+    }
+    return is_met();
+  }
 
  private:
   std::vector<LogStatus> now_;
@@ -307,11 +316,8 @@ bool Robot::begin_in(std::vector<LogStatus>& before) {
   log_.begin = *begin;
   Comparison comparison(before, statuses());
   first_ = changes();
-  for (const Change& change : first_) {
-    if (comparison.is_met()) break;
-    comparison.change(place_of(change.uid), change.after);
-  }
-  return comparison.is_met() && first_.size() < kMostKept;
+  const auto place = [this](std::uint16_t uid) { return place_of(uid); };
+  return comparison.is_met_by(first_, place) && first_.size() < kMostKept;
 }
 
 void Robot::end(std::string_view why) {
@@ -333,14 +339,9 @@ void Robot::go_on() {
     throw Gap{fmt::format("{} came at once, which is as many as are kept",
                           more.size())};
   }
-  if (comparison) {
-    for (const Change& change : more) {
-      if (comparison->is_met()) break;
-      comparison->change(place_of(change.uid), change.after);
-    }
-    if (!comparison->is_met()) {
-      throw Gap{"another program asks for them as well, Groot2 for instance"};
-    }
+  const auto place = [this](std::uint16_t uid) { return place_of(uid); };
+  if (comparison && !comparison->is_met_by(more, place)) {
+    throw Gap{"another program asks for them as well, Groot2 for instance"};
   }
   take(more);
   arm();

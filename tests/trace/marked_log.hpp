@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "btcheck/monitor.hpp"
 #include "trace/logs/behavior_log.hpp"
 #include "trace/logs/marks.hpp"
 #include "trace/run/little_endian.hpp"
@@ -34,7 +35,7 @@ class MarkedLogWriter {
     append_number(marks_, kMarksVersion, 1);
     append_number(marks_, static_cast<std::uint64_t>(engine), 1);
     append_number(marks_, kBegin, 8);
-    append_number(marks_, hash_of_xml(xml), 8);
+    append_number(marks_, monitor::fingerprint(xml), 8);
     varint(entries.size());
     for (const std::string& entry : entries) text(entry);
     heading_ = marks_.size();

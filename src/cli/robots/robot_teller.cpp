@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
+#include "report/text/report.hpp"
 #include "text/utf8.hpp"
+#include "trace/watch/watched_run.hpp"
 
 namespace btcheck {
 namespace {
@@ -14,10 +17,6 @@ namespace {
 // What is told may be so late before that is said, and said again.
 constexpr std::chrono::seconds kBehind{2};
 constexpr std::chrono::seconds kWarnAgain{10};
-
-std::string counted(std::size_t count, std::string_view thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
 
 std::string seconds(std::int64_t time) {
   return fmt::format("{}.{:06}", time / 1'000'000, time % 1'000'000);
@@ -29,10 +28,8 @@ const std::string& name_of(const LogNode& node) {
 
 // As `trace --prop` writes it.
 std::string line_of(const LiveVerdict& rule) {
-  std::string line = fmt::format("{:<10} {}", rule.verdict, rule.name);
-  if (!rule.moment.empty()) line += fmt::format("  ({})", rule.moment);
-  if (rule.is_expected) line += "  (expected violated)";
-  line += '\n';
+  std::string line =
+      verdict_line(rule.verdict, rule.name, rule.moment, rule.is_expected);
   if (rule.verdict == "VIOLATED") {
     line += fmt::format("{:11}{}\n", "", rule.text);
   }
@@ -40,16 +37,12 @@ std::string line_of(const LiveVerdict& rule) {
 }
 
 std::string totals_of(const std::vector<LiveVerdict>& rules) {
-  const auto count = [&](std::string_view verdict) {
-    return std::ranges::count(rules, verdict, &LiveVerdict::verdict);
-  };
-  std::string text = fmt::format(
-      "{}: {} satisfied, {} violated, {} open", counted(rules.size(), "rule"),
-      count("SATISFIED"), count("VIOLATED"), count("OPEN"));
-  if (count("EXCLUDED") > 0) {
-    text += fmt::format(", {} excluded", count("EXCLUDED"));
+  std::array<std::size_t, 4> counts{};
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    counts[i] = static_cast<std::size_t>(
+        std::ranges::count(rules, kOutlookNames[i], &LiveVerdict::verdict));
   }
-  return text + "\n";
+  return rule_totals(counts);
 }
 
 }  // namespace
@@ -160,10 +153,10 @@ std::vector<Diagnostic> RobotTeller::begins(
   time_ = 0;
   std::string words = fmt::format("groot2://{}: {}, {}", address_.text(),
                                   log.tree.empty() ? "a tree" : log.tree,
-                                  counted(log.nodes.size(), "node"));
+                                  counted(log.nodes.size(), "node", "nodes"));
   if (!log.transitions.empty()) {
     words += fmt::format("; in the middle of a run, {} at work",
-                         counted(log.transitions.size(), "node"));
+                         counted(log.transitions.size(), "node", "nodes"));
   }
   if (!plan_.output.empty()) {
     std::string word = plan_.robots == 1 ? "" : address_.text();
@@ -267,8 +260,9 @@ void RobotTeller::tell_records(std::span<const LogTransition> records) {
 
 void RobotTeller::ends(std::string_view why) {
   last_words_ = why;
-  const std::string words = fmt::format(
-      "{} in {} s; {}", counted(records_, "record"), seconds(time_), why);
+  const std::string words =
+      fmt::format("{} in {} s; {}", counted(records_, "record", "records"),
+                  seconds(time_), why);
   later([this, words] {
     if (log_) {
       log_->close();
@@ -279,8 +273,9 @@ void RobotTeller::ends(std::string_view why) {
       return board_.remark(
           fmt::format("groot2://{}: {}\n", address_.text(), words));
     }
-    std::string text = fmt::format("\ngroot2://{}: {}, {}\n", address_.text(),
-                                   counted(nodes_.size(), "node"), words);
+    std::string text =
+        fmt::format("\ngroot2://{}: {}, {}\n", address_.text(),
+                    counted(nodes_.size(), "node", "nodes"), words);
     for (const LiveVerdict& rule : told_) text += line_of(rule);
     board_.result(text + totals_of(told_));
   });

@@ -54,14 +54,11 @@ LiveLog::LiveLog(std::string file, const LogReading& reading, std::string topic,
 LiveLog::~LiveLog() = default;
 
 RecordedRun LiveLog::beginning() const {
-  RecordedRun run = player_->heading();
-  run.tree = file_;
-  run.property = log_.tree.empty() ? "log" : log_.tree;
-  run.formula = rules_.empty()
-                    ? "a log of BehaviorTree.CPP; no property is checked"
-                    : "a log of BehaviorTree.CPP, and rules asked of it";
+  RecordedRun run = titled(player_->heading(), file_, log_);
+  if (!rules_.empty()) {
+    run.formula = "a log of BehaviorTree.CPP, and rules asked of it";
+  }
   if (!words_.empty()) run.formula = words_;
-  run.verdict = "LOG";
   if (!log_.marks) {
     run.variables = names_;
     run.is_number.assign(names_.size(), false);
@@ -282,10 +279,8 @@ void LiveLog::judge() {
 std::string LiveLog::verdicts_text() const {
   std::string text;
   for (const LiveVerdict& rule : verdicts_) {
-    text += fmt::format(
-        "{:<10} {}{}{}\n", rule.verdict, rule.name,
-        rule.moment.empty() ? "" : fmt::format("  ({})", rule.moment),
-        rule.is_expected ? "  (expected violated)" : "");
+    text +=
+        verdict_line(rule.verdict, rule.name, rule.moment, rule.is_expected);
   }
   return text;
 }

@@ -23,6 +23,15 @@ constexpr std::int64_t kMostUnits = 1'000'000;
 
 }  // namespace
 
+RecordedRun titled(RecordedRun heading, const std::string& file,
+                   const BehaviorLog& log) {
+  heading.tree = file;
+  heading.property = log.tree.empty() ? "log" : log.tree;
+  heading.formula = "a log of BehaviorTree.CPP; no property is checked";
+  heading.verdict = "LOG";
+  return heading;
+}
+
 void take_entries(RecordedRun& run, const LogMarks& marks) {
   run.variables = marks.entries;
   run.is_number.assign(marks.entries.size(), false);

@@ -40,6 +40,10 @@ enum class Unseen : std::uint8_t {
   Anything   // its records are not told apart from those of others
 };
 
+// A run of a log as it is shown: by its file, and no property of it.
+RecordedRun titled(RecordedRun heading, const std::string& file,
+                   const BehaviorLog& log);
+
 // Gives a run the entries of a log as its variables, in the place of others.
 void take_entries(RecordedRun& run, const LogMarks& marks);
 

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "btcheck/monitor.hpp"
 #include "trace/logs/behavior_log.hpp"
 #include "trace/logs/flaws.hpp"
 #include "trace/run/little_endian.hpp"
@@ -136,7 +137,7 @@ class MarksReader {
       marks_.engine = static_cast<int>(engine);
       const auto begin = static_cast<std::int64_t>(number(8));
       const std::uint64_t hash = number(8);
-      if (begin != log_.begin || hash != hash_of_xml(log_.xml)) {
+      if (begin != log_.begin || hash != monitor::fingerprint(log_.xml)) {
         throw flaw("BT1312",
                    begin != log_.begin
                        ? "these marks are of another log: it began at another "
@@ -211,9 +212,12 @@ class MarksReader {
     marks_.events.push_back(mark);
   }
 
-  void pass(LogMark& mark) {
+  void pass() {
     time_ += varint();
     if (time_ > kMostMicroseconds) throw damaged("its time is too great");
+  }
+  void pass(LogMark& mark) {
+    pass();
     mark.time = static_cast<std::int64_t>(time_);
   }
 
@@ -238,8 +242,7 @@ class MarksReader {
 
   void repeat(LogMark& mark) {
     pass(mark);
-    time_ += varint();
-    if (time_ > kMostMicroseconds) throw damaged("its time is too great");
+    pass();
     if (is_in_tick_ || !has_tick_) {
       throw damaged("a tick comes again that was not there before");
     }
@@ -331,15 +334,6 @@ class MarksReader {
 };
 
 }  // namespace
-
-std::uint64_t hash_of_xml(std::string_view xml) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : xml) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3;
-  }
-  return hash;
-}
 
 std::vector<Diagnostic> read_marks(std::string_view file,
                                    std::string_view bytes, BehaviorLog& log,

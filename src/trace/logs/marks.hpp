@@ -98,7 +98,4 @@ void each_mark(const LogMarks& marks, const See& see) {
   }
 }
 
-// FNV-1a, of the XML in a log.
-std::uint64_t hash_of_xml(std::string_view xml);
-
 }  // namespace btcheck

@@ -64,6 +64,9 @@ std::string_view sign_of(Operation operation) {
   return "";
 }
 
+constexpr std::array<std::string_view, 6> kSlotNames = {
+    "location", "last_status", "called", "answer", "remembered", "entry"};
+
 // `"a \042quoted\042 text"`
 std::string table_text(std::string_view text) {
   std::string result = "\"";
@@ -168,7 +171,8 @@ class TableWriter {
     std::string text = fmt::format("slots {}\n", slots_.size());
     for (const VariableId slot : slots_) {
       const auto [kind, of] = watch_.meaning(slot);
-      text += fmt::format("{} {}\n", kind, of);
+      text += fmt::format("{} {}\n", kSlotNames[static_cast<std::size_t>(kind)],
+                          of);
     }
     return text;
   }

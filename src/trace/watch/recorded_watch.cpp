@@ -469,8 +469,8 @@ bool RecordedWatch::remembers(const Expression& condition) const {
   return std::ranges::any_of(condition.terms(), [&](const Term& term) {
     if (term.operation != Operation::Variable) return false;
     const VariableId variable{static_cast<std::uint32_t>(term.operand)};
-    const std::string_view kind = meaning(variable).first;
-    return kind == "answer" || kind == "remembered";
+    const SlotKind kind = meaning(variable).first;
+    return kind == SlotKind::Answer || kind == SlotKind::Remembered;
   });
 }
 
@@ -532,7 +532,7 @@ void RecordedWatch::finish(bool is_possible) {
   ++states_;
 }
 
-std::pair<std::string_view, std::size_t> RecordedWatch::meaning(
+std::pair<RecordedWatch::SlotKind, std::size_t> RecordedWatch::meaning(
     VariableId variable) const {
   const Network& network = network_.network();
   const Variable& known = network.variable(variable);
@@ -540,11 +540,11 @@ std::pair<std::string_view, std::size_t> RecordedWatch::meaning(
   if (known.owner) node = index(network.automaton(*known.owner).node);
   switch (known.role) {
     case VariableRole::Location:
-      return {"location", node};
+      return {SlotKind::Location, node};
     case VariableRole::Status:
-      return {"last_status", node};
+      return {SlotKind::LastStatus, node};
     case VariableRole::Caller:
-      return {"called", node};
+      return {SlotKind::Called, node};
     case VariableRole::State:
     case VariableRole::Local:
     case VariableRole::Fault:
@@ -553,9 +553,10 @@ std::pair<std::string_view, std::size_t> RecordedWatch::meaning(
   const auto& entries = network.state_variable;
   const auto entry = std::ranges::find(entries, variable);
   if (entry != entries.end()) {
-    return {"entry", static_cast<std::size_t>(entry - entries.begin())};
+    return {SlotKind::Entry, static_cast<std::size_t>(entry - entries.begin())};
   }
-  return {known.name == kAnswerName ? "answer" : "remembered", node};
+  return {known.name == kAnswerName ? SlotKind::Answer : SlotKind::Remembered,
+          node};
 }
 
 std::vector<std::string> RecordedWatch::texts(std::size_t rule) const {

@@ -80,9 +80,17 @@ class RecordedWatch {
   const std::vector<RuleMonitor>& monitors() const { return monitors_; }
   const std::vector<Past>& past() const { return past_; }
   const std::string& rules_file() const { return rules_.file; }
-  // "location", "last_status", "called", "answer" or "remembered", and the
-  // node; or "entry" and the variable of the run.
-  std::pair<std::string_view, std::size_t> meaning(VariableId variable) const;
+  // What a variable of the network is, in the order of btcheck/monitor.hpp, and
+  // of which node; of an entry, the variable of the run.
+  enum class SlotKind : std::uint8_t {
+    Location,
+    LastStatus,
+    Called,
+    Answer,
+    Remembered,
+    Entry
+  };
+  std::pair<SlotKind, std::size_t> meaning(VariableId variable) const;
   // An entry of a log, as far as the rules tell its values apart.
   const StateVariable& entry(std::size_t variable) const {
     return network_.tree().variables[variable];

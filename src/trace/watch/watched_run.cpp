@@ -255,10 +255,6 @@ namespace {
 
 constexpr std::string_view kIndent = "           ";
 
-std::string word_of(const WatchedRule& rule) {
-  return std::string(kOutlookNames[static_cast<std::size_t>(rule.outlook)]);
-}
-
 }  // namespace
 
 std::string moment_text(const WatchedRule& rule) {
@@ -290,15 +286,29 @@ std::string moment_text(const WatchedRule& rule) {
                      rule.time % 1'000'000);
 }
 
+std::string verdict_line(std::string_view verdict, std::string_view name,
+                         std::string_view moment, bool is_expected) {
+  return fmt::format("{:<10} {}{}{}\n", verdict, name,
+                     moment.empty() ? "" : fmt::format("  ({})", moment),
+                     is_expected ? "  (expected violated)" : "");
+}
+
+std::string rule_totals(const std::array<std::size_t, 4>& counts) {
+  std::string text = fmt::format(
+      "{}: {} satisfied, {} violated, {} open",
+      counted(counts[0] + counts[1] + counts[2] + counts[3], "rule"), counts[1],
+      counts[2], counts[0]);
+  if (counts[3] > 0) text += fmt::format(", {} excluded", counts[3]);
+  return text + "\n";
+}
+
 std::string watch_text(const WatchReport& report) {
   std::string text = report.heading + "\n";
   std::array<std::size_t, 4> counts{};
   for (const WatchedRule& rule : report.rules) {
     ++counts[static_cast<std::size_t>(rule.outlook)];
-    const std::string moment = moment_text(rule);
-    text += fmt::format("{:<10} {}{}{}\n", word_of(rule), rule.name,
-                        moment.empty() ? "" : fmt::format("  ({})", moment),
-                        rule.is_expected ? "  (expected violated)" : "");
+    text += verdict_line(kOutlookNames[static_cast<std::size_t>(rule.outlook)],
+                         rule.name, moment_text(rule), rule.is_expected);
     if (!rule.title.empty()) text += fmt::format("{}{}\n", kIndent, rule.title);
     if (rule.outlook != Outlook::Violated) continue;
     text += fmt::format("{}{}\n", kIndent, rule.text);
@@ -307,11 +317,7 @@ std::string watch_text(const WatchReport& report) {
     for (const std::string& event : rule.events) text += "    " + event + "\n";
     text += "    -- " + rule.run->end_words + "\n\n";
   }
-  text += fmt::format("\n{}: {} satisfied, {} violated, {} open",
-                      counted(report.rules.size(), "rule"), counts[1],
-                      counts[2], counts[0]);
-  if (counts[3] > 0) text += fmt::format(", {} excluded", counts[3]);
-  return text + "\n";
+  return text + "\n" + rule_totals(counts);
 }
 
 bool is_broken(const WatchReport& report) {

@@ -53,6 +53,12 @@ WatchedRule watched_rule(const LogWatch& watch, std::size_t rule);
 // When it was decided, or why it is not: "record 4, tick 2, after 0.2 s"; "".
 std::string moment_text(const WatchedRule& rule);
 
+// "VIOLATED   low  (record 4, tick 2)  (expected violated)", one line.
+std::string verdict_line(std::string_view verdict, std::string_view name,
+                         std::string_view moment, bool is_expected);
+// "3 rules: 1 satisfied, 1 violated, 1 open", by Outlook.
+std::string rule_totals(const std::array<std::size_t, 4>& counts);
+
 struct WatchReport {
   std::string heading;  // "robot.btlog: 6 nodes, 16 records, 3 ticks"
   std::vector<WatchedRule> rules;
