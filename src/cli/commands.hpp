@@ -27,5 +27,6 @@ ExitCode run_init(const Options& options);
 ExitCode run_conform(const Options& options);
 ExitCode run_monitor(const Options& options);
 ExitCode run_fmt(const Options& options);
+ExitCode run_whatif(const Options& options);
 
 }  // namespace btcheck

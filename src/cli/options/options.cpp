@@ -537,6 +537,7 @@ void settle_roots(const OptionWords& words, Options& options) {
 
 // Two profiles are compared in text, and nothing is kept of them.
 void settle_against(const OptionWords& words, Options& options) {
+  if (options.command == Command::WhatIf) return;
   settle_choice(words, "--against", options.against);
   if (!options.against) return;
   for (const char* name :
@@ -617,6 +618,20 @@ void settle_robots(const OptionWords& words, Options& options) {
   }
 }
 
+// Which faults are put in.
+void settle_faults(const OptionWords& words, Options& options) {
+  if (options.command != Command::WhatIf) return;
+  FaultPlan& plan = options.faults;
+  settle_choice(words, "--others", plan.choices.others);
+  settle_number(words, "--late", 1, 1'000'000, plan.choices.late);
+  settle_number(words, "--order", 1, 2, plan.order);
+  plan.only = words.value("--only");
+  plan.against = words.value("--against");
+  for (const std::string& word : words.all("--faults")) {
+    plan.choices.kinds.push_back(*fault_kind(word));
+  }
+}
+
 // What a command cannot do without.
 void refuse_missing(const OptionWords& words) {
   const CommandRow& command = row_of(words.command);
@@ -677,6 +692,7 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_batch(words, options);
   settle_watch(words, options);
   settle_robots(words, options);
+  settle_faults(words, options);
   settle_roots(words, options);
   refuse_missing(words);
   return options;

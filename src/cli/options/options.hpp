@@ -16,6 +16,7 @@
 #include "check/export/export_model.hpp"
 #include "check/findings/judgement.hpp"
 #include "check/space/space.hpp"
+#include "check/whatif/faults.hpp"
 #include "cli/options/interface.hpp"
 #include "model/automata/network.hpp"
 #include "run/engine/leaves.hpp"
@@ -46,7 +47,8 @@ enum class Command : std::uint8_t {
   Mcp,
   Lsp,
   Fmt,
-  Watch
+  Watch,
+  WhatIf
 };
 
 // The tree that `btcheck -` reads.
@@ -117,6 +119,14 @@ struct RobotPlan {
   std::optional<int> break_ms;      // --break-for
 };
 
+// What `whatif` puts into a tree, and what it tells of it.
+struct FaultPlan {
+  FaultChoices choices;  // --faults, --late, --others
+  int order = 1;         // --order
+  std::string only;      // --only: a leaf, or a node above some; "" for all
+  std::string against;   // --against: an earlier result; "" for none
+};
+
 // How `space` tells its figures.
 enum class StatisticsFormat : std::uint8_t { Table, Json };
 
@@ -181,6 +191,7 @@ struct Options {
   std::string output;           // -o; "" for standard output
   FormattingPlan formatting;
   RobotPlan robots;
+  FaultPlan faults;
   std::optional<LeafForm> leaf_form;  // leaves: --to; else by the name of -o
   std::optional<GraphFormat> graph;   // space: --export
   std::string graph_file;             // "" for standard output

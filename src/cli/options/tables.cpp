@@ -140,6 +140,18 @@ constexpr CommandRow kCommands[] = {
          "the run in a browser, and keeps it as a log, until Ctrl-C or "
          "--timeout. What the robot does is left alone, but for --inject and "
          "--break."},
+    {.command = WhatIf,
+     .word = "whatif",
+     .argument = ArgumentKind::Tree,
+     .shown = "TREE",
+     .missing = "no tree",
+     .example = "btcheck whatif TREE",
+     .summary = "what the mission does when something breaks",
+     .description =
+         "Puts each fault into each leaf and searches all runs: what the "
+         "mission does then, who notices, how it gets on, and what is never "
+         "noticed. All other leaves do what they are for. --order 2 looks at "
+         "pairs of faults as well."},
     {.command = Explain,
      .word = "explain",
      .argument = ArgumentKind::Code,
@@ -240,32 +252,34 @@ constexpr CommandRow kCommands[] = {
      .description = "Prints the man page, as troff.",
      .is_hidden = true}};
 
-constexpr CommandSet kReadsTrees = {Check, Batch,   Lint,
-                                    Space, Export,  Simulate,
-                                    Init,  Conform, Command::Answer};
-constexpr CommandSet kReadsModels = {Check,  Batch,          Lint, Space,
-                                     Export, Simulate,       Init, Conform,
-                                     Leaves, Command::Answer};
+constexpr CommandSet kReadsTrees = {Check,           Batch,    Lint, Space,
+                                    Export,          Simulate, Init, Conform,
+                                    Command::Answer, WhatIf};
+constexpr CommandSet kReadsModels = {Check,  Batch,           Lint,  Space,
+                                     Export, Simulate,        Init,  Conform,
+                                     Leaves, Command::Answer, WhatIf};
 // An XML tree has an executor of its own.
 constexpr CommandSet kReadsBtf = {Check,    Batch, Lint,    Space, Export,
-                                  Simulate, Init,  Conform, Run};
+                                  Simulate, Init,  Conform, Run,   WhatIf};
 constexpr CommandSet kHasSettings = {
-    Check,  Batch,           Lint,  Space, Export, Simulate, Init, Conform, Run,
-    Leaves, Command::Answer, Serve, Mcp,   Lsp,    Fmt};
+    Check, Batch,   Lint, Space,  Export,          Simulate,
+    Init,  Conform, Run,  Leaves, Command::Answer, Serve,
+    Mcp,   Lsp,     Fmt,  WhatIf};
 constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space,
                                   Demo,  Init,  Command::Answer};
-constexpr CommandSet kCountsStates = {
-    Check, Batch, Space, Demo, Init, Conform, Command::Answer, Serve, Mcp, Lsp};
+constexpr CommandSet kCountsStates = {Check, Batch,   Space,           Demo,
+                                      Init,  Conform, Command::Answer, Serve,
+                                      Mcp,   Lsp,     WhatIf};
 constexpr CommandSet kLimited = {
     Check,    Batch, Lint, Space,   Export, Trace,           Demo,
     Simulate, Init,  Run,  Conform, Leaves, Command::Answer, Serve,
-    Mcp,      Lsp,   Fmt,  Watch};
+    Mcp,      Lsp,   Fmt,  Watch,   WhatIf};
 constexpr CommandSet kEvery = {
     Check,    Batch,       Lint, Space,  Export,          Trace,
     Simulate, Explain,     Demo, Init,   Conform,         Run,
     Monitor,  Completions, Man,  Leaves, Command::Answer, Serve,
-    Mcp,      Lsp,         Fmt,  Watch};
+    Mcp,      Lsp,         Fmt,  Watch,  WhatIf};
 
 constexpr std::string_view kProfileNames =
     "paper btcpp-3.5.1 btcpp-3.5 btcpp-3.6 btcpp-3.7 btcpp-3.8 btcpp-4.0 "
@@ -280,14 +294,14 @@ constexpr OptionRow kOptions[] = {
      .value = "FILE",
      .names = ValueKind::File,
      .help = "a file of properties",
-     .commands = {Check, Lint, Export, Trace, Monitor, Run, Watch},
+     .commands = {Check, Lint, Export, Trace, Monitor, Run, Watch, WhatIf},
      .is_repeatable = true,
-     .first = {Check, Export, Trace, Run, Monitor, Watch},
+     .first = {Check, Export, Trace, Run, Monitor, Watch, WhatIf},
      .example = "btcheck TREE --prop RULES.ltl"},
     {.name = "-e",
      .value = "RULE",
      .help = "a rule, as in a file of properties; its name may be left out",
-     .commands = {Check, Lint, Export, Trace, Monitor, Run, Watch},
+     .commands = {Check, Lint, Export, Trace, Monitor, Run, Watch, WhatIf},
      .is_repeatable = true,
      .first = {Check, Trace},
      .example = "btcheck TREE -e 'never land.failure'"},
@@ -296,7 +310,8 @@ constexpr OptionRow kOptions[] = {
      .choices = "root leaves nodes none",
      .fallback = "what the property file says, else root",
      .help = "where time passes",
-     .commands = {Check, Batch, Space, Export, Simulate, Demo, Init, Conform}},
+     .commands = {Check, Batch, Space, Export, Simulate, Demo, Init, Conform,
+                  WhatIf}},
     {.name = "--profile",
      .value = "PROFILE",
      .choices = kProfileNames,
@@ -422,7 +437,7 @@ constexpr OptionRow kOptions[] = {
      .value = "NUMBER",
      .fallback = "one for each core",
      .help = "how many threads search",
-     .commands = kSearches},
+     .commands = {Check, Batch, Space, Demo, Init, Command::Answer, WhatIf}},
     {.name = "--store",
      .value = "STORE",
      .choices = "exact compressed",
@@ -834,6 +849,53 @@ constexpr OptionRow kOptions[] = {
      .commands = {Fmt},
      .first = {Fmt},
      .example = "btcheck fmt - --stdin-name TREE.xml <FILE >FORMATTED"},
+    {.name = "--order",
+     .value = "NUMBER",
+     .choices = "1 2",
+     .fallback = "1",
+     .help = "how many faults at once: 2 for pairs as well, where both can "
+             "strike",
+     .commands = {WhatIf},
+     .first = {WhatIf},
+     .example = "btcheck whatif TREE --order 2"},
+    {.name = "--faults",
+     .value = "KIND",
+     .choices = "fails fails-once fails-for-ever says-yes never-ends late "
+                "inverted flips-once halted writes-nothing writes-other throws",
+     .fallback = "all",
+     .help = "faults of this kind only",
+     .commands = {WhatIf},
+     .is_repeatable = true,
+     .example = "btcheck whatif TREE --faults never-ends --faults throws"},
+    {.name = "--only",
+     .value = "NODE",
+     .fallback = "all leaves",
+     .help = "faults of this leaf, or of those below this node",
+     .commands = {WhatIf},
+     .example = "btcheck whatif TREE --only NODE"},
+    {.name = "--late",
+     .value = "TICKS",
+     .fallback = "10",
+     .help = "by how much a leaf ends too late",
+     .commands = {WhatIf},
+     .example = "btcheck whatif TREE --late 50"},
+    {.name = "--others",
+     .value = "HOW",
+     .choices = "work contract",
+     .fallback = "work",
+     .help = "what the leaves without a fault do: work, actions succeed and "
+             "conditions answer either way; contract, all that their contracts "
+             "allow",
+     .commands = {WhatIf},
+     .example = "btcheck whatif TREE --others contract"},
+    {.name = "--against",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .help = "exit code 1 only for faults that are worse than in this result, "
+             "kept by --format json",
+     .commands = {WhatIf},
+     .first = {WhatIf},
+     .example = "btcheck whatif TREE --against faults.json"},
     {.name = "--color",
      .value = "MODE",
      .choices = "auto always never",
@@ -845,6 +907,9 @@ constexpr OptionRow kOptions[] = {
      .help = "show every run, step by step",
      .commands = {Check, Batch, Trace, Demo},
      .first = {Check}},
+    {.name = "-v",
+     .help = "tell of every fault, and name the btcheck.toml that is used",
+     .commands = {WhatIf}},
     {.name = "-v",
      .help = "name the btcheck.toml that is used",
      .commands = {Lint, Space, Export, Simulate, Conform, Run}},

@@ -199,6 +199,14 @@ VariableId NodeBuilder::rounds(std::string_view name, int most) {
   return made;
 }
 
+VariableId NodeBuilder::fault_phase() {
+  if (!fault_phase_) {
+    fault_phase_ = local("injected", 0, 2, 0);
+    context_.network.variables.back().local = LocalRole::Fault;
+  }
+  return *fault_phase_;
+}
+
 void NodeBuilder::edge(LocationId source, LocationId target, Expression guard,
                        std::vector<Assignment> updates, std::string label) {
   ask_budget();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -100,6 +101,8 @@ class NodeBuilder {
   VariableId local(std::string_view name, int min, int max, int initial);
   // Of LocalRole::Rounds, from 0 on.
   VariableId rounds(std::string_view name, int most);
+  // Of LocalRole::Fault, made on first use.
+  VariableId fault_phase();
   // Makes a variable of the family one of this automaton's locals.
   void own(VariableId variable) { automaton().locals.push_back(variable); }
 
@@ -171,6 +174,7 @@ class NodeBuilder {
   NodeId id_;
   const Node& node_;
   std::unordered_map<std::string, LocationId> places_;  // by name
+  std::optional<VariableId> fault_phase_ = {};
 };
 
 // Draws the automaton of one node, frame included.

@@ -166,8 +166,9 @@ enum class VariableRole : std::uint8_t {
 
 // What a local is for, in any family of node types.
 enum class LocalRole : std::uint8_t {
-  Inner,  // of this node type's own
-  Rounds  // how many rounds are done, or how often it has tried again
+  Inner,   // of this node type's own
+  Rounds,  // how many rounds are done, or how often it has tried again
+  Fault    // a FaultPhase (model/tree/leaf_fault.hpp)
 };
 
 // An integer in [min, max].

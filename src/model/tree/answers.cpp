@@ -77,6 +77,35 @@ Answers mapped(const Node& node, const Answers& child) {
           gives(NodeStatus::Running)};
 }
 
+// What a leaf answers by its fault as well.
+Answers with_fault(Answers answers, const std::optional<LeafFault>& fault) {
+  if (!fault) return answers;
+  switch (fault->kind) {
+    case FaultKind::Fails:
+    case FaultKind::FailsOnce:
+    case FaultKind::FailsOn:
+      answers.failure = true;
+      break;
+    case FaultKind::Succeeds:
+    case FaultKind::WritesNothing:
+    case FaultKind::WritesOther:
+      answers.success = true;
+      break;
+    case FaultKind::NeverEnds:
+    case FaultKind::EndsLate:
+      answers.runs = true;
+      break;
+    case FaultKind::Inverted:
+    case FaultKind::FlipsOnce:
+      answers.success = answers.failure = true;
+      break;
+    case FaultKind::Halted:
+    case FaultKind::Throws:
+      break;
+  }
+  return answers;
+}
+
 // Whatever its conditions do.
 Answers by_flow(const Node& node, const AllAnswers& answers) {
   const LeafContract& contract = node.contract;
@@ -85,9 +114,10 @@ Answers by_flow(const Node& node, const AllAnswers& answers) {
   const bool ends = first.success || first.failure;
   switch (info_of(node.type).flow) {
     case Flow::AsContract:
-      return {contract.may_succeed,
-              contract.may_fail || !contract.needed().is_true(),
-              contract.may_run};
+      return with_fault(
+          {contract.may_succeed,
+           contract.may_fail || !contract.needed().is_true(), contract.may_run},
+          node.fault);
     case Flow::NeverFails:
       return {.failure = false};
     case Flow::Evaluates:

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "model/tree/expression.hpp"
+#include "model/tree/leaf_fault.hpp"
 #include "model/tree/leaf_meaning.hpp"
 #include "model/tree/scale.hpp"
 #include "text/diagnostic.hpp"
@@ -438,6 +439,7 @@ struct Node {
   double rate_hz = 0;                // RateController
   std::optional<Duration> duration;  // Wait and Action, in ticks
   LeafContract contract;             // Action (:SF clears may_run), Condition
+  std::optional<LeafFault> fault;    // of these and SetSV: put in by `whatif`
   StateVariableId variable{};        // SetSV
   Expression expression;             // Eval without :=
   std::optional<StateAssignment> assignment;  // Eval with :=

@@ -58,8 +58,10 @@ EngineBuilder::EngineBuilder(NodeBuilder& draw, Begins begins)
   draw_.edge(at("start_"), at("halt"),
              both(differs(caller, 0), equals(status(), NodeStatus::HaltMe)), {},
              "is asked to halt");
+  const auto& fault = node().fault;
+  const bool may_be_cut_off = fault && fault->kind == FaultKind::Halted;
   draw_.edge(
-      at("start_"), at("tick_node"),
+      at("start_"), at(may_be_cut_off ? "called" : "tick_node"),
       both(differs(caller, 0), differs(status(), value_of(NodeStatus::HaltMe))),
       {}, "is called");
   body_ = at("tick_node");
@@ -225,6 +227,15 @@ void EngineBuilder::draw_own_halt(LocationId from) {
   const bool is_reset = is_leaf && memory != LeafMemory::Latched;
   draw_.edge(from, at("skipped"), {},
              is_reset ? idle : std::vector<Assignment>{});
+}
+
+void EngineBuilder::halt_from_outside(std::string_view location,
+                                      LocationId then,
+                                      std::vector<Assignment> updates) {
+  Afterwards after = run_afterwards(location, {ScriptTime::OnHalted});
+  after.updates = joined(std::move(after.updates), updates);
+  after.updates.push_back(set(status(), NodeStatus::NoRetStatus));
+  leave(after, then, {}, "has been halted");
 }
 
 LocationId EngineBuilder::answering(NodeStatus answer) {

@@ -145,6 +145,10 @@ class EngineBuilder {
            const std::vector<Assignment>& updates, Expression otherwise,
            Expression are_all_skipped);
 
+  // From a location on somebody halts the node, with its script and these
+  // updates, and gives it no turn.
+  void halt_from_outside(std::string_view location, LocationId then,
+                         std::vector<Assignment> updates);
   // halt(): all children are reset, with these updates.
   void on_halt(std::vector<Assignment> updates = {});
 

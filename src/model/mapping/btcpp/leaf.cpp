@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/automata/faults.hpp"
 #include "model/mapping/btcpp/builder.hpp"
 
 namespace btcheck::mapping {
@@ -246,21 +247,134 @@ void draw_course(EngineBuilder& build, LocationId from, const Timer& timer,
   draw_skips(build, look, answers, {stop});
 }
 
+// --- Faults ------------------------------------------------------------------
+
+// Between two ticks somebody has halted it, and nobody has told its parent.
+void draw_cut_off(EngineBuilder& build, const Answers& answers,
+                  const std::vector<Assignment>& stop) {
+  NodeBuilder& draw = build.draw();
+  const Asked called = draw_strike(
+      draw, build.at("called"),
+      both(build.was_running(),
+           differs(build.status(), static_cast<int>(NodeStatus::HaltMe))));
+  draw.edge(*called.well, build.at("tick_node"));
+  build.halt_from_outside("struck", *called.well,
+                          joined(answers.on_running, stop));
+}
+
+// An answer the wrong way round: it succeeds where it would fail.
+void draw_inverted(EngineBuilder& build, LocationId from,
+                   const Answers& answers) {
+  const Expression would_fail =
+      answers.required.is_true() ? answers.decided_against
+      : answers.decided.is_true()
+          ? answers.unmet
+          : either(answers.unmet, answers.decided_against);
+  draw_way(build, from, answers.success, would_fail, {}, {});
+  draw_way(build, from, answers.failure,
+           both(answers.required, answers.decided), {}, {});
+}
+
+// It runs for so many ticks, and only then may it end.
+void draw_late(EngineBuilder& build, LocationId from, const Answers& answers,
+               int ticks, std::vector<Assignment>& on_halt) {
+  NodeBuilder& draw = build.draw();
+  const VariableId late = draw.local("late", 0, ticks, 0);
+  const Assignment anew = set(late, 0);
+  draw_way(build, from,
+           {build.running(), answers.on_running, Expression::constant(0),
+            draw.node().contract.running_program},
+           differs(late, ticks), {count(late)}, {});
+  draw_ends(build, from, answers, equals(late, ticks), {anew});
+  on_halt.push_back(anew);
+}
+
+// It succeeds as ever, and writes something else, or nothing.
+void spoil_writes(EngineBuilder& build, Answers& answers) {
+  const VariableId phase = build.draw().fault_phase();
+  std::vector<Assignment> effects = std::move(answers.success.effects);
+  answers.has_written = {};
+  answers.success.effects = {set(phase, static_cast<int>(FaultPhase::There))};
+  answers.success.leaves = Expression::constant(0);
+  answers.success.program = kNoProgram;
+  if (build.node().fault->kind == FaultKind::WritesNothing) return;
+  answers.success.to = build.at("writes");
+  draw_other_values(build.draw(), answers.success.to, build.success(), effects);
+}
+
+bool spoils_writes(const Node& node) {
+  return node.fault && (node.fault->kind == FaultKind::WritesNothing ||
+                        node.fault->kind == FaultKind::WritesOther);
+}
+
+// What a leaf does while its fault is there; with what its answers then stop,
+// and what else is to be done when it is halted.
+void draw_fault(EngineBuilder& build, LocationId struck, const Answers& answers,
+                const std::vector<Assignment>& stop,
+                std::vector<Assignment>& on_halt) {
+  NodeBuilder& draw = build.draw();
+  const LeafFault fault = *draw.node().fault;
+  switch (fault.kind) {
+    case FaultKind::Fails:
+    case FaultKind::FailsOnce:
+    case FaultKind::FailsOn:
+      return draw_way(build, struck, answers.failure, {}, stop, {});
+    case FaultKind::Succeeds:
+      return draw_way(build, struck, answers.success, {}, stop, {});
+    case FaultKind::NeverEnds:
+      return draw_way(
+          build, struck,
+          {build.running(), answers.on_running, Expression::constant(0),
+           draw.node().contract.running_program},
+          {}, stop, {});
+    case FaultKind::EndsLate:
+      return draw_late(build, struck, answers, fault.late, on_halt);
+    case FaultKind::Inverted:
+    case FaultKind::FlipsOnce:
+      return draw_inverted(build, struck, answers);
+    case FaultKind::Throws:
+      return build.throws(struck, {}, "an exception of the leaf");
+    case FaultKind::WritesNothing:
+    case FaultKind::WritesOther:
+    case FaultKind::Halted:
+      return;  // spoil_writes, draw_cut_off
+  }
+}
+
 }  // namespace
 
 void draw_engine_leaf(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Silently);
   const LeafContract& contract = draw.node().contract;
   const LocationId body = build.body();
-  const Answers answers = answers_of(build);
+  Answers answers = answers_of(build);
+  const bool is_spoilt = spoils_writes(draw.node());
+  if (is_spoilt) spoil_writes(build, answers);
   std::optional<Timer> timer;
-  if (draw.takes_time()) timer = draw.add_timer();
+  const auto& fault = draw.node().fault;
+  const bool is_late = fault && fault->kind == FaultKind::EndsLate;
+  if (draw.takes_time() && !is_late) timer = draw.add_timer();
+  std::vector<Assignment> stop;
+  if (timer) stop.push_back(timer->stop());
+  std::vector<Assignment> on_halt = joined(answers.on_running, stop);
   const auto draw_run = [&](LocationId from) {
     if (timer) {
       draw_course(build, from, *timer, answers);
     } else {
       draw_choice(build, from, answers);
     }
+  };
+  // Draws what it does that is asked for an answer, with its fault and without.
+  const auto draw_asked = [&](LocationId asked, const auto& draw_well) {
+    Asked then = {asked, std::nullopt};
+    if (!is_spoilt && (!fault || fault->kind != FaultKind::Halted)) {
+      then = draw_strike(draw, asked);
+    }
+    if (then.struck) draw_fault(build, *then.struck, answers, stop, on_halt);
+    if (!then.well) return;
+    draw_well(is_spoilt && fault->kind == FaultKind::WritesNothing
+                  ? *then.well
+                  : measured(build, *then.well, "measures"));
   };
   // An answer of the leaf's memory, with what its contract says it does.
   const auto answer =
@@ -273,14 +387,14 @@ void draw_engine_leaf(NodeBuilder& draw) {
   const std::string first_look = "looks for the first time";
   switch (contract.memory) {
     case LeafMemory::None:
-      draw_run(measured(build, body, "measures"));
+      draw_asked(body, draw_run);
       break;
     case LeafMemory::Latched:
     case LeafMemory::Unknown: {
       const VariableId status = build.status();
       const Expression passed = equals(status, NodeStatus::Success);
       const Expression failed = equals(status, NodeStatus::Failure);
-      const LocationId run = build.at("run");
+      const LocationId looks = build.at("run");
       draw.edge(body, build.success(), passed, {}, "has ended already");
       draw.edge(body, build.failure(), failed, {}, "has ended already");
       Expression kept = either(passed, failed);
@@ -290,43 +404,44 @@ void draw_engine_leaf(NodeBuilder& draw) {
         kept = either(std::move(kept), skipped);
       }
       const bool is_known = contract.memory == LeafMemory::Latched;
-      draw.edge(body, run, is_known ? negated(kept) : Expression{});
-      draw_run(measured(build, run, "measures"));
+      draw.edge(body, looks, is_known ? negated(kept) : Expression{});
+      draw_asked(looks, draw_run);
       break;
     }
-    case LeafMemory::FirstTickFails: {
-      const LocationId from = measured(build, body, "measures");
-      const LocationId look = build.at("look");
-      answer(from, false, build.was_idle(), {}, first_look);
-      draw.edge(from, look, negated(build.was_idle()));
-      draw_choice(build, look, answers);
+    case LeafMemory::FirstTickFails:
+      draw_asked(body, [&](LocationId from) {
+        const LocationId look = build.at("look");
+        answer(from, false, build.was_idle(), {}, first_look);
+        draw.edge(from, look, negated(build.was_idle()));
+        draw_choice(build, look, answers);
+      });
       break;
-    }
     case LeafMemory::FirstTickOfLifeFails:
-    case LeafMemory::FirstTickOfLifeSucceeds: {
-      const LocationId from = measured(build, body, "measures");
-      const VariableId first = draw.local("first", 0, 1, 1);
-      const LocationId look = build.at("look");
-      answer(from, contract.memory == LeafMemory::FirstTickOfLifeSucceeds,
-             equals(first, 1), {set(first, 0)}, first_look);
-      draw.edge(from, look, equals(first, 0));
-      draw_choice(build, look, answers);
+    case LeafMemory::FirstTickOfLifeSucceeds:
+      draw_asked(body, [&](LocationId from) {
+        const VariableId first = draw.local("first", 0, 1, 1);
+        const LocationId look = build.at("look");
+        answer(from, contract.memory == LeafMemory::FirstTickOfLifeSucceeds,
+               equals(first, 1), {set(first, 0)}, first_look);
+        draw.edge(from, look, equals(first, 0));
+        draw_choice(build, look, answers);
+      });
       break;
-    }
-    case LeafMemory::SuccessStays: {
-      const LocationId from = measured(build, body, "measures");
-      const VariableId found = draw.local("found", 0, 1, 0);
-      answer(from, true,
-             answers.required.is_true()
-                 ? Expression{}
-                 : either(equals(found, 1), answers.required),
-             {set(found, 1)});
-      answer(from, false, equals(found, 0), {});
+    case LeafMemory::SuccessStays:
+      draw_asked(body, [&](LocationId from) {
+        const VariableId found = draw.local("found", 0, 1, 0);
+        answer(from, true,
+               answers.required.is_true()
+                   ? Expression{}
+                   : either(equals(found, 1), answers.required),
+               {set(found, 1)});
+        answer(from, false, equals(found, 0), {});
+      });
       break;
-    }
   }
-  std::vector<Assignment> on_halt = answers.on_running;
-  if (timer) on_halt.push_back(timer->stop());
+  if (fault && fault->kind == FaultKind::Halted) {
+    draw_cut_off(build, answers, stop);
+  }
   const LocationId halt = measured(build, build.at("halt"), "halts");
   build.reset_all(halt, build.at("halted"), std::move(on_halt));
   draw.executes(contract.running_program, ScriptOutcomeKind::Ends);

@@ -5,6 +5,7 @@
 // contract allows can happen each time it is ticked. A leaf with a :duration
 // has a companion timer; until it is due the leaf answers running.
 #include <algorithm>
+#include "model/automata/faults.hpp"
 #include "model/mapping/paper/drawings.hpp"
 
 namespace btcheck::mapping {
@@ -97,6 +98,25 @@ void draw_division_by_zero(NodeBuilder& draw, LocationId from,
             {set(draw.context().fault(), 1)}, "divides by zero");
 }
 
+// Success with all that it does. One whose fault is that it does something else
+// does that behind the answer.
+Outcome succeeding(NodeBuilder& draw, Expression guard,
+                   std::vector<Assignment> also) {
+  const LeafContract& contract = draw.node().contract;
+  const auto& fault = draw.node().fault;
+  const bool is_other = fault && fault->kind == FaultKind::WritesOther;
+  if (!is_other && !(fault && fault->kind == FaultKind::WritesNothing)) {
+    return {"success", std::move(guard), contract.on_success, std::move(also)};
+  }
+  also.push_back(set(draw.fault_phase(), static_cast<int>(FaultPhase::There)));
+  if (!is_other) return {"success", std::move(guard), {}, std::move(also)};
+  if (!draw.knows("writes")) {
+    draw_other_values(draw, draw.at("writes"), draw.at("success"),
+                      draw.context().over_network(contract.on_success));
+  }
+  return {"writes", std::move(guard), {}, std::move(also)};
+}
+
 // Success and failure as the contract allows them. Where the requirement is
 // false the leaf can only fail; a decision leaves no choice.
 void draw_results(NodeBuilder& draw, LocationId from, Expression guard,
@@ -104,8 +124,7 @@ void draw_results(NodeBuilder& draw, LocationId from, Expression guard,
   const LeafContract& contract = draw.node().contract;
   const Expression succeeds = draw.context().over_network(contract.needed());
   if (contract.may_succeed) {
-    draw_outcome(draw, from,
-                 {"success", both(guard, succeeds), contract.on_success, also});
+    draw_outcome(draw, from, succeeding(draw, both(guard, succeeds), also));
   }
   const bool fails_freely = contract.may_fail && contract.decision.is_true();
   if (fails_freely || !succeeds.is_true()) {
@@ -115,13 +134,72 @@ void draw_results(NodeBuilder& draw, LocationId from, Expression guard,
   }
 }
 
+// What a leaf does whose fault is there; where it goes on as if nothing were
+// wrong, if it does.
+std::optional<LocationId> draw_fault(NodeBuilder& draw, LocationId asked,
+                                     const std::optional<Timer>& timer = {}) {
+  const auto& fault = draw.node().fault;
+  using enum FaultKind;
+  if (!fault || fault->kind == WritesNothing || fault->kind == WritesOther) {
+    return asked;
+  }
+  Expression where;
+  std::vector<Assignment> stop;
+  if (timer) stop.push_back(timer->stop());
+  if (timer && fault->kind == Halted) where = differs(timer->location, 0);
+  const Asked then = draw_strike(draw, asked, std::move(where));
+  const LocationId struck = *then.struck;
+  const LeafContract& contract = draw.node().contract;
+  const Expression needed = draw.context().over_network(contract.needed());
+  switch (fault->kind) {
+    case Fails:
+    case FailsOnce:
+    case FailsOn:
+      draw_outcome(draw, struck, {"failure", {}, contract.on_failure, stop});
+      break;
+    case Succeeds:
+      draw_outcome(draw, struck, {"success", {}, contract.on_success, stop});
+      break;
+    case NeverEnds:
+      draw.edge(struck, draw.at("running"), {}, stop);
+      break;
+    case EndsLate: {
+      const VariableId late = draw.local("late", 0, fault->late, 0);
+      draw.edge(struck, draw.at("running"), differs(late, fault->late),
+                {{late, Expression::binary(Operation::Add, read(late),
+                                           Expression::constant(1))}});
+      draw_results(draw, struck, equals(late, fault->late), {set(late, 0)});
+      draw.edge(draw.at("halt"), draw.at("halted"), {}, {set(late, 0)});
+      break;
+    }
+    case Inverted:
+    case FlipsOnce:
+      draw_outcome(draw, struck,
+                   {"success", negated(needed), contract.on_success, stop});
+      draw_outcome(draw, struck,
+                   {"failure", needed, contract.on_failure, stop});
+      break;
+    case Halted:
+      draw.edge(struck, *then.well, {}, stop, "has been halted");
+      break;
+    case Throws:
+      draw.edge(struck, draw.at("error"), {}, {set(draw.context().fault(), 1)},
+                "throws an exception");
+      break;
+    case WritesNothing:
+    case WritesOther:
+      break;
+  }
+  return then.well;
+}
+
 // Success, failure and running, chosen anew on every tick. Without guards the
 // node's unit of time is spent on the choice itself, as in the figures.
 void draw_free_choice(NodeBuilder& draw, bool may_run) {
   const LeafContract& contract = draw.node().contract;
-  const bool needs_guards = !contract.needed().is_true() ||
-                            !contract.on_success.empty() ||
-                            !contract.on_failure.empty();
+  const bool needs_guards =
+      !contract.needed().is_true() || !contract.on_success.empty() ||
+      !contract.on_failure.empty() || draw.node().fault.has_value();
   if (draw.is_timed() && !needs_guards) {
     LocationId from = draw.at("tick_node");
     Interval unit{1, 1};
@@ -130,7 +208,9 @@ void draw_free_choice(NodeBuilder& draw, bool may_run) {
     if (may_run) draw.timed_edge(from, draw.at("running"), unit);
     return;
   }
-  LocationId from = draw.decide();
+  const auto well = draw_fault(draw, draw.decide());
+  if (!well) return;
+  const LocationId from = *well;
   const Expression asked = draw.context().over_network(contract.needed());
   Expression required = draw.context().over_network(contract.requirement);
   Expression defined = is_defined(asked);
@@ -146,10 +226,14 @@ void draw_free_choice(NodeBuilder& draw, bool may_run) {
 template <class Results>
 void draw_with_timer(NodeBuilder& draw, Results results) {
   Timer timer = draw.add_timer();
-  LocationId from = draw.decide();
+  const auto draw_halt = [&] {
+    draw.edge(draw.at("halt"), draw.at("halted"), {}, {timer.stop()});
+  };
+  const auto from = draw_fault(draw, draw.decide(), timer);
+  if (!from) return draw_halt();
   LocationId look = draw.at("look");
-  draw.edge(from, look, timer.is_idle(), {timer.start()}, "starts its timer");
-  draw.edge(from, look, differs(timer.location, Timer::kIdle));
+  draw.edge(*from, look, timer.is_idle(), {timer.start()}, "starts its timer");
+  draw.edge(*from, look, differs(timer.location, Timer::kIdle));
   const LeafContract& contract = draw.node().contract;
   const Expression asked = draw.context().over_network(contract.needed());
   Expression required = draw.context().over_network(contract.requirement);
@@ -166,11 +250,13 @@ void draw_with_timer(NodeBuilder& draw, Results results) {
   }
   results(look, both(timer.is_due(), defined),
           std::vector<Assignment>{timer.stop()});
-  draw.edge(draw.at("halt"), draw.at("halted"), {}, {timer.stop()});
+  draw_halt();
 }
 
 void draw_action(NodeBuilder& draw) {
-  if (draw.takes_time()) {
+  const auto& fault = draw.node().fault;
+  const bool is_late = fault && fault->kind == FaultKind::EndsLate;
+  if (draw.takes_time() && !is_late) {
     draw.frame();
     draw_with_timer(draw, [&](LocationId look, Expression due,
                               std::vector<Assignment> reset) {
@@ -179,10 +265,11 @@ void draw_action(NodeBuilder& draw) {
     return;
   }
   // A :duration of no ticks leaves no tick on which to answer running.
-  const bool may_run = draw.node().contract.may_run && !draw.node().duration;
+  const bool may_run =
+      draw.node().contract.may_run && (!draw.node().duration || is_late);
   if (may_run) {
     draw.frame();
-    draw.edge(draw.at("halt"), draw.at("halted"));
+    if (!is_late) draw.edge(draw.at("halt"), draw.at("halted"));
   } else {
     draw.frame_without_running();
   }
@@ -201,6 +288,15 @@ void draw_set_state_variable(NodeBuilder& draw) {
       draw.context().tree.variable(draw.node().variable);
   VariableId written =
       draw.context().network.state_variable[index(draw.node().variable)];
+  if (const auto& fault = draw.node().fault) {
+    if (fault->kind == FaultKind::WritesNothing) {
+      return draw.edge(
+          from, draw.at("success"), {},
+          {set(draw.fault_phase(), static_cast<int>(FaultPhase::There))},
+          "the fault: " + variable.name + " stays as it is");
+    }
+    from = *draw_fault(draw, from);
+  }
   for (const int next : draw.context().sampled(draw.node().variable)) {
     Expression allowed = equals(written, next);
     int allowing = 1;

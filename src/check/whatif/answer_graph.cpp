@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: MIT
+//
+// The search is reduced: what happens between two choices of the world is one
+// step with all its events. Those of one tree come in one order, whatever the
+// others do, so the reduction leaves no sequence of them out.
+#include "check/whatif/answer_graph.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "explore/state/spent.hpp"
+#include "model/tree/leaf_fault.hpp"
+#include "model/tree/node_types.hpp"
+
+namespace btcheck {
+namespace {
+
+std::optional<Happening> happening(LocationRole role) {
+  switch (role) {
+    case LocationRole::Tick:
+      return Happening::Asked;
+    case LocationRole::Success:
+      return Happening::Success;
+    case LocationRole::Failure:
+      return Happening::Failure;
+    case LocationRole::Running:
+      return Happening::Running;
+    case LocationRole::Skipped:
+      return Happening::Skipped;
+    case LocationRole::Halted:
+      return Happening::Halted;
+    default:
+      return std::nullopt;
+  }
+}
+
+// What is told of a state: the ends of roots, faults, and who runs there.
+Observed told_of(const BehaviorTree& tree, const Network& network,
+                 bool with_running) {
+  Observed told(network);
+  for (const NodeId root : tree.roots) {
+    const Automaton& automaton = network.automaton(root);
+    for (std::size_t i = 0; i < automaton.locations.size(); ++i) {
+      if (!is_end(automaton.locations[i].role)) continue;
+      told.add(equals(automaton.location, static_cast<int>(i)));
+    }
+  }
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    if (const auto phase = fault_phase(network, NodeId{n})) told.add(*phase);
+    if (!with_running || !is_leaf(tree.nodes[n].type)) continue;
+    told.add(equals(network.node_status[n], NodeStatus::Running));
+  }
+  return told;
+}
+
+}  // namespace
+
+std::optional<VariableId> fault_phase(const Network& network, NodeId leaf) {
+  return local_of(network, leaf, LocalRole::Fault);
+}
+
+AnswerGraph::AnswerGraph(const BehaviorTree& tree, const Network& network,
+                         const Limits& limits)
+    : tree_(tree),
+      system_(network),
+      searched_(system_, told_of(tree, network, false),
+                told_of(tree, network, true), Reduction::Full),
+      store_(searched_.system().word_count()) {
+  event_of_edge_.resize(network.edge_count());
+  for (std::uint32_t e = 0; e < event_of_edge_.size(); ++e) {
+    event_of_edge_[e] = event_of(e);
+  }
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    const auto phase = fault_phase(network, NodeId{n});
+    if (phase) faults_.push_back({NodeId{n}, *phase});
+  }
+  search(limits);
+}
+
+std::optional<NodeEvent> AnswerGraph::event_of(std::uint32_t edge) const {
+  const Network& network = system_.network();
+  const Automaton& owner = network.owner_of_edge(edge);
+  if (owner.kind != AutomatonKind::Node) return std::nullopt;
+  const auto what = happening(owner.target(network.edge(edge)).role);
+  if (!what) return std::nullopt;
+  const Node& node = tree_.node(owner.node);
+  if (what == Happening::Asked && !node.is_root() && !is_leaf(node.type)) {
+    return std::nullopt;
+  }
+  return NodeEvent(owner.node, *what);
+}
+
+void AnswerGraph::search(const Limits& limits) {
+  const ReducedNetwork& system = searched_.system();
+  system.initial_states([&](StateView state) {
+    store_.insert(state);
+    note(state);
+    reached_by_.push_back(0);
+  });
+  std::uint32_t next = 0;
+  try {
+    for (; next < store_.size() && stopped_ == StopReason::None; ++next) {
+      ask_budget();
+      expand(next);
+      if ((next + 1) % kPollInterval != 0) continue;
+      progress_.states = store_.size();
+      progress_.expanded = next + 1;
+      progress_.transitions = arcs_.size();
+      progress_.bytes = store_.bytes() + arcs_.size() * sizeof(Arc) +
+                        events_.size() * sizeof(NodeEvent);
+      stopped_ = limits.reached(progress_);
+    }
+  } catch (const BudgetSpent& spent) {
+    stopped_ = stop_reason(spent.spent());
+  }
+  first_.resize(store_.size() + 1, static_cast<std::uint32_t>(arcs_.size()));
+  progress_.states = store_.size();
+  progress_.expanded = next;
+  progress_.transitions = arcs_.size();
+  close();
+}
+
+void AnswerGraph::expand(std::uint32_t state) {
+  const ReducedNetwork& system = searched_.system();
+  StateVector words(system.word_count());
+  store_.load(StateId{state}, words);
+  first_.push_back(static_cast<std::uint32_t>(arcs_.size()));
+  std::vector<NodeEvent> happened;
+  visit(words, happened, [&](StateView target, Step) {
+    const auto [id, is_new] = store_.insert(target);
+    if (is_new) {
+      note(target);
+      reached_by_.push_back(static_cast<std::uint32_t>(arcs_.size()));
+    }
+    // An idle step is none.
+    if (index(id) == state && happened.empty()) return;
+    arcs_.push_back({index(id), sequence_of(happened)});
+  });
+}
+
+template <class Visit>
+void AnswerGraph::visit(StateView state, std::vector<NodeEvent>& happened,
+                        Visit found) const {
+  const CompiledNetwork& network = searched_.system().network();
+  searched_.system().successors(
+      state,
+      [&](StateView target, Step step) {
+        found(target, step);
+        happened.clear();
+      },
+      [&](StateView before, Step step, StateView after) {
+        if (step.edge == kTimeStep) return;
+        for (const auto& [leaf, phase] : faults_) {
+          constexpr auto kNotYet = static_cast<int>(FaultPhase::NotYet);
+          if (network.value(before, phase) == kNotYet &&
+              network.value(after, phase) != kNotYet) {
+            happened.emplace_back(leaf, Happening::Struck);
+          }
+        }
+        if (const auto& event = event_of_edge_[step.edge]) {
+          happened.push_back(*event);
+        }
+      });
+}
+
+void AnswerGraph::note(StateView state) {
+  const CompiledNetwork& system = searched_.system().network();
+  const Network& network = system.network();
+  std::size_t ended = 0;
+  std::size_t succeeded = 0;
+  for (const NodeId root : tree_.roots) {
+    const Automaton& automaton = network.automaton(root);
+    const LocationRole role = automaton
+                                  .locations[static_cast<std::size_t>(
+                                      system.value(state, automaton.location))]
+                                  .role;
+    ended += is_end(role) ? 1 : 0;
+    succeeded += role == LocationRole::Success ? 1 : 0;
+  }
+  Ending ending = Ending::None;
+  if (network.fault && system.value(state, *network.fault) != 0) {
+    ending = Ending::Exception;
+  } else if (ended == tree_.roots.size()) {
+    ending = succeeded == ended ? Ending::Success : Ending::Failure;
+  }
+  endings_.push_back(ending);
+  struck_.push_back(std::ranges::all_of(faults_, [&](const Fault& fault) {
+    return system.value(state, fault.phase) !=
+           static_cast<int>(FaultPhase::NotYet);
+  }));
+}
+
+std::uint32_t AnswerGraph::sequence_of(const std::vector<NodeEvent>& events) {
+  std::uint64_t hash = events.size();
+  for (const NodeEvent& event : events) {
+    hash = (hash ^ event.bits()) * 0x9e3779b97f4a7c15ULL;
+    hash ^= hash >> 29;
+  }
+  const auto [from, to] = known_sequences_.equal_range(hash);
+  for (auto known = from; known != to; ++known) {
+    const auto& [first, last] = sequences_[known->second];
+    if (std::equal(events.begin(), events.end(), events_.begin() + first,
+                   events_.begin() + last)) {
+      return known->second;
+    }
+  }
+  const auto number = static_cast<std::uint32_t>(sequences_.size());
+  const auto first = static_cast<std::uint32_t>(events_.size());
+  events_.insert(events_.end(), events.begin(), events.end());
+  sequences_.emplace_back(first, static_cast<std::uint32_t>(events_.size()));
+  known_sequences_.emplace(hash, number);
+  return number;
+}
+
+// Which states can end: backwards from those that do.
+void AnswerGraph::close() {
+  std::vector<std::uint32_t> count(size() + 1, 0);
+  for (const Arc& arc : arcs_) ++count[arc.target + 1];
+  for (std::uint32_t s = 0; s < size(); ++s) count[s + 1] += count[s];
+  std::vector<std::uint32_t> sources(arcs_.size());
+  std::vector<std::uint32_t> next(count.begin(), count.end() - 1);
+  for (std::uint32_t s = 0; s < size(); ++s) {
+    for (const Arc& arc : arcs(s)) sources[next[arc.target]++] = s;
+  }
+  can_end_.resize(size());
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t s = 0; s < size(); ++s) {
+    if (endings_[s] == Ending::None) continue;
+    can_end_[s] = true;
+    open.push_back(s);
+  }
+  while (!open.empty()) {
+    const std::uint32_t state = open.back();
+    open.pop_back();
+    for (std::uint32_t i = count[state]; i < count[state + 1]; ++i) {
+      if (can_end_[sources[i]]) continue;
+      can_end_[sources[i]] = true;
+      open.push_back(sources[i]);
+    }
+  }
+}
+
+std::vector<NodeId> AnswerGraph::running(std::uint32_t state) const {
+  const CompiledNetwork& system = searched_.system().network();
+  StateVector words(system.word_count());
+  store_.load(StateId{state}, words);
+  std::vector<NodeId> found;
+  for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
+    if (!is_leaf(tree_.nodes[n].type)) continue;
+    const auto status = static_cast<NodeStatus>(
+        system.value(words, system.network().node_status[n]));
+    if (status == NodeStatus::Running) found.push_back(NodeId{n});
+  }
+  return found;
+}
+
+std::uint32_t AnswerGraph::source_of(std::uint32_t arc) const {
+  const auto behind = std::ranges::upper_bound(first_, arc);
+  return static_cast<std::uint32_t>(behind - first_.begin()) - 1;
+}
+
+std::vector<std::uint32_t> AnswerGraph::path_to(std::uint32_t state) const {
+  std::vector<std::uint32_t> path;
+  while (state != 0) {
+    path.push_back(reached_by_[state]);
+    state = source_of(path.back());
+  }
+  std::ranges::reverse(path);
+  return path;
+}
+
+std::vector<Step> AnswerGraph::steps_along(std::span<const std::uint32_t> path,
+                                           std::string& error) const {
+  const ReducedNetwork& system = searched_.system();
+  StateVector from(system.word_count());
+  StateVector to(system.word_count());
+  store_.load(StateId{0}, from);
+  Lasso found{{{from, {}}}, {}, {}};
+  for (const std::uint32_t number : path) {
+    const Arc& taken = arcs_[number];
+    store_.load(StateId{taken.target}, to);
+    // Several may lead there that differ in what happens.
+    std::optional<Step> step;
+    std::vector<NodeEvent> happened;
+    visit(from, happened, [&](StateView target, Step each) {
+      if (step || !std::ranges::equal(target, to)) return;
+      if (std::ranges::equal(happened, events(taken))) step = each;
+    });
+    found.prefix.push_back({to, step.value_or(Step{})});
+    from.swap(to);
+  }
+  std::vector<Step> steps;
+  const auto run = searched_.replayed(found, error);
+  if (!run) return steps;
+  for (const RunStep& each : run->steps) steps.push_back(each.step);
+  return steps;
+}
+
+}  // namespace btcheck

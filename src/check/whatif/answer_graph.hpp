@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+//
+// All runs of a network as a graph whose steps tell what nodes answer: what
+// somebody sees who watches the tree, and nothing of what leaves mean by it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "check/bind/verdict.hpp"
+#include "check/search/searched_network.hpp"
+#include "explore/state/limits.hpp"
+#include "explore/state/step.hpp"
+#include "explore/store/state_store.hpp"
+#include "model/automata/network.hpp"
+#include "model/tree/tree.hpp"
+
+namespace btcheck {
+
+enum class Happening : std::uint8_t {
+  Asked,  // a leaf or a root is ticked
+  Success,
+  Failure,
+  Running,
+  Skipped,
+  Halted,
+  Struck  // a fault of the leaf strikes
+};
+inline bool is_answer(Happening happening) {
+  return happening >= Happening::Success && happening <= Happening::Skipped;
+}
+
+// What happens to one node, in four bytes.
+class NodeEvent {
+ public:
+  NodeEvent(NodeId node, Happening what)
+      : bits_(index(node) << 3 | static_cast<std::uint32_t>(what)) {}
+  NodeId node() const { return NodeId{bits_ >> 3}; }
+  Happening what() const { return static_cast<Happening>(bits_ & 7); }
+  std::uint32_t bits() const { return bits_; }
+  friend bool operator==(const NodeEvent&, const NodeEvent&) = default;
+
+ private:
+  std::uint32_t bits_;
+};
+
+// How a state stands to the mission.
+enum class Ending : std::uint8_t {
+  None,       // it goes on
+  Success,    // all roots have succeeded
+  Failure,    // some root has not, and all have ended
+  Exception,  // nothing moves any more
+};
+
+class AnswerGraph {
+ public:
+  struct Arc {
+    std::uint32_t target = 0;
+    std::uint32_t events = 0;  // for `events`
+  };
+
+  // Searches at once. Tree and network must outlive it.
+  AnswerGraph(const BehaviorTree& tree, const Network& network,
+              const Limits& limits);
+
+  StopReason stopped() const { return stopped_; }
+  const SearchProgress& progress() const { return progress_; }
+  std::uint32_t size() const {
+    return static_cast<std::uint32_t>(endings_.size());
+  }
+  std::span<const Arc> arcs(std::uint32_t state) const {
+    return {arcs_.data() + first_[state], arcs_.data() + first_[state + 1]};
+  }
+  std::uint32_t first_arc(std::uint32_t state) const { return first_[state]; }
+  const Arc& arc(std::uint32_t number) const { return arcs_[number]; }
+  std::span<const NodeEvent> events(const Arc& arc) const {
+    const auto& [first, last] = sequences_[arc.events];
+    return {events_.data() + first, events_.data() + last};
+  }
+  Ending ending(std::uint32_t state) const { return endings_[state]; }
+  // Every fault of the tree has struck.
+  bool has_struck(std::uint32_t state) const { return struck_[state]; }
+  // From there some run leads to an end of the mission, or to an exception.
+  const std::vector<bool>& can_end() const { return can_end_; }
+  // Leaves that run in a state that ends the mission.
+  std::vector<NodeId> running(std::uint32_t state) const;
+
+  // The numbers of the arcs on a shortest way to a state.
+  std::vector<std::uint32_t> path_to(std::uint32_t state) const;
+  // The single steps along arcs that follow each other from the beginning on,
+  // executed again; sets `error` where they cannot be.
+  std::vector<Step> steps_along(std::span<const std::uint32_t> path,
+                                std::string& error) const;
+
+ private:
+  void search(const Limits& limits);
+  void expand(std::uint32_t state);
+  std::uint32_t source_of(std::uint32_t arc) const;
+  void note(StateView state);
+  // Calls found(target, step) for each step, with what happens in it.
+  template <class Visit>
+  void visit(StateView state, std::vector<NodeEvent>& happened,
+             Visit found) const;
+  std::uint32_t sequence_of(const std::vector<NodeEvent>& events);
+  void close();
+  std::optional<NodeEvent> event_of(std::uint32_t edge) const;
+
+  const BehaviorTree& tree_;
+  CompiledNetwork system_;
+  SearchedNetwork searched_;
+  StateStore store_;
+  std::vector<std::uint32_t> reached_by_;  // by state: an arc
+  std::vector<std::optional<NodeEvent>> event_of_edge_;
+  struct Fault {
+    NodeId leaf{};
+    VariableId phase{};
+  };
+  std::vector<Fault> faults_;
+
+  std::vector<std::uint32_t> first_;  // by state
+  std::vector<Arc> arcs_;
+  std::vector<NodeEvent> events_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> sequences_;
+  std::unordered_multimap<std::uint64_t, std::uint32_t> known_sequences_;
+  std::vector<Ending> endings_;
+  std::vector<bool> struck_;
+  std::vector<bool> can_end_;
+  StopReason stopped_ = StopReason::None;
+  SearchProgress progress_;
+};
+
+// Where a fault of the leaf stands; nothing where it has none.
+std::optional<VariableId> fault_phase(const Network& network, NodeId leaf);
+
+}  // namespace btcheck

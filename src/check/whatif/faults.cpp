@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "check/whatif/faults.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "check/findings/facts.hpp"
+#include "model/automata/faults.hpp"
+#include "model/tree/node_types.hpp"
+
+namespace btcheck {
+namespace {
+
+bool is_condition(const Node& node) {
+  return node.type == NodeType::Condition || is_taken_for_condition(node);
+}
+
+// All that it has is one answer: nothing of it can break.
+bool is_constant(const Node& node) {
+  const LeafContract& contract = node.contract;
+  return !contract.may_run && contract.may_succeed != contract.may_fail &&
+         contract.needed().is_true() && contract.on_success.empty() &&
+         contract.on_failure.empty() && contract.measures.empty();
+}
+
+bool may_have_faults(const Node& node) {
+  if (node.type == NodeType::SetSV) return true;
+  return (node.type == NodeType::Action || node.type == NodeType::Condition) &&
+         !is_constant(node);
+}
+
+bool writes_any(const Node& node) {
+  return !node.contract.on_success.empty() || !node.contract.measures.empty();
+}
+
+bool can_write_others(const BehaviorTree& tree, const Node& node) {
+  const auto& effects = node.contract.on_success;
+  return !effects.empty() &&
+         std::ranges::all_of(effects, [&](const StateAssignment& effect) {
+           const StateVariable& variable = tree.variable(effect.variable);
+           const int others = variable.max - variable.min;
+           return others > 0 && others < mapping::kMostOtherValues;
+         });
+}
+
+class List {
+ public:
+  List(const BehaviorTree& tree, const FaultChoices& choices)
+      : tree_(tree), choices_(choices) {}
+
+  PossibleFaults take() {
+    for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
+      const Node& node = tree_.nodes[n];
+      if (!may_have_faults(node)) continue;
+      if (is_taken_for_condition(node)) found_.guessed.push_back(NodeId{n});
+      for (const FaultFacts& facts : kFaults) look_at(NodeId{n}, facts.kind);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void look_at(NodeId leaf, FaultKind kind) {
+    const auto& wanted = choices_.kinds;
+    if (!wanted.empty() && std::ranges::find(wanted, kind) == wanted.end()) {
+      return;
+    }
+    const Node& node = tree_.node(leaf);
+    if (!makes_sense(node, kind)) return;
+    const std::string_view why = no_difference(node, kind);
+    if (why.empty()) {
+      found_.faults.push_back({leaf, {kind, late_of(node, kind)}});
+    } else {
+      leave_out(leaf, kind, why);
+    }
+  }
+
+  static bool makes_sense_for_condition(FaultKind kind) {
+    using enum FaultKind;
+    return kind == Fails || kind == FailsOnce || kind == Succeeds ||
+           kind == Inverted || kind == FlipsOnce;
+  }
+  static bool makes_sense_for_deed(const Node& node, FaultKind kind) {
+    using enum FaultKind;
+    if (kind == NeverEnds || kind == EndsLate || kind == Halted) {
+      return node.contract.may_run;
+    }
+    return kind == Fails || kind == FailsOnce || kind == FailsOn;
+  }
+  bool makes_sense(const Node& node, FaultKind kind) const {
+    using enum FaultKind;
+    // Leaves of .btf files know no exceptions.
+    if (kind == Throws) return is_engine(tree_.profile);
+    if (node.type == NodeType::SetSV) return kind == WritesNothing;
+    if (kind == WritesNothing || kind == WritesOther) return writes_any(node);
+    return is_condition(node) ? makes_sense_for_condition(kind)
+                              : makes_sense_for_deed(node, kind);
+  }
+
+  // Why nothing is different then; "" where something may be.
+  std::string_view no_difference(const Node& node, FaultKind kind) const {
+    using enum FaultKind;
+    if (kind == WritesOther && !can_write_others(tree_, node)) {
+      return node.contract.on_success.empty()
+                 ? "the world decides what it writes"
+                 : "what it writes has more than 16 values";
+    }
+    const bool is_once =
+        kind == FailsOnce || kind == Inverted || kind == FlipsOnce;
+    if (is_condition(node) && is_once && answers_freely(node)) {
+      return "the world may answer so at any time";
+    }
+    // Of an action without a memory of its own nothing is lost by a halt.
+    if (kind == Halted && !is_engine(tree_.profile) && !node.duration) {
+      return "it has nothing to begin anew";
+    }
+    return "";
+  }
+
+  int late_of(const Node& node, FaultKind kind) const {
+    if (kind != FaultKind::EndsLate) return 0;
+    const bool has_most = node.duration && node.duration->max != kEndless;
+    return choices_.late + (has_most ? node.duration->max : 0);
+  }
+
+  void leave_out(NodeId leaf, FaultKind kind, std::string_view why) {
+    auto same = std::ranges::find(found_.left_out, why, &LeftOut::why);
+    if (same == found_.left_out.end()) {
+      found_.left_out.push_back({{}, {}, std::string(why)});
+      same = found_.left_out.end() - 1;
+    }
+    const auto add = [](auto& to, auto value) {
+      if (std::ranges::find(to, value) == to.end()) to.push_back(value);
+    };
+    add(same->leaves, leaf);
+    add(same->kinds, kind);
+  }
+
+  const BehaviorTree& tree_;
+  const FaultChoices& choices_;
+  PossibleFaults found_;
+};
+
+void let_work(Node& node) {
+  LeafContract& contract = node.contract;
+  if (is_taken_for_condition(node)) contract.may_run = false;
+  if (is_deed(node) && contract.may_succeed) contract.may_fail = false;
+}
+
+}  // namespace
+
+bool is_deed(const Node& node) {
+  return node.type == NodeType::Action && !is_condition(node);
+}
+
+bool answers_freely(const Node& node) {
+  const LeafContract& contract = node.contract;
+  return is_condition(node) && contract.needed().is_true() &&
+         contract.may_succeed && contract.may_fail;
+}
+
+bool is_of_world(const Node& node) {
+  return node.type == NodeType::SetSV || answers_freely(node);
+}
+
+PossibleFaults possible_faults(const BehaviorTree& tree,
+                               const FaultChoices& choices) {
+  return List(tree, choices).take();
+}
+
+BehaviorTree with_faults(const BehaviorTree& tree,
+                         std::span<const InjectedFault> faults, Others others) {
+  BehaviorTree changed = tree;
+  if (others == Others::Work) std::ranges::for_each(changed.nodes, let_work);
+  for (const InjectedFault& each : faults) {
+    changed.nodes[index(each.leaf)].fault = each.fault;
+  }
+  return changed;
+}
+
+}  // namespace btcheck
