@@ -217,8 +217,9 @@ std::vector<NodeEvent> events_along(const AnswerGraph& graph,
   return all;
 }
 
-// Up from the leaf as long as each node passes on what is below it; the first
-// that does something else has caught it.
+// Up from a failure of the leaf as long as each node passes it on; the first
+// that does something else has caught it. One that runs on is caught where a
+// node above it has decided.
 std::optional<Recovery> recovery_on(const BehaviorTree& tree, NodeId leaf,
                                     const std::vector<NodeEvent>& run,
                                     const std::vector<bool>& asked) {
@@ -226,26 +227,30 @@ std::optional<Recovery> recovery_on(const BehaviorTree& tree, NodeId leaf,
   if (at == run.end()) return std::nullopt;
   Recovery recovery;
   std::optional<NodeId> caught;
-  std::optional<Happening> answer;
+  std::optional<Happening> answer;  // of the leaf, that is on its way up
   NodeId below = leaf;
   std::set<NodeId> through;
   for (++at; at != run.end(); ++at) {
     const NodeId node = at->node();
     if (at->what() == Happening::Asked) {
       if (!asked[index(node)]) through.insert(node);
-    } else if (node == leaf && is_answer(at->what())) {
-      if (answer && at->what() == Happening::Success) {
-        recovery.is_asked_again = true;
-      }
-      if (!answer || below == leaf) answer = at->what();
+      if (node == leaf && caught) recovery.is_asked_again = true;
     }
-    if (caught || !answer || node == leaf) continue;
-    if (node == tree.node(below).parent && at->what() == *answer) {
-      below = node;
-    } else {
-      caught = tree.node(below).parent;
+    if (node == leaf) {
+      if (!is_answer(at->what()) || caught) continue;
+      if (at->what() == Happening::Success) break;
+      answer = at->what();
+      below = leaf;
+      continue;
     }
-    if (tree.node(below).is_root()) return std::nullopt;
+    if (caught || !answer || tree.node(below).is_root()) continue;
+    const NodeId above = tree.node(below).parent;
+    const bool is_above = node == above && is_answer(at->what());
+    if (is_above && at->what() == *answer) {
+      below = above;
+    } else if (is_above || answer == Happening::Failure) {
+      caught = above;
+    }
   }
   if (!caught || tree.node(*caught).is_root()) return std::nullopt;
   recovery.caught_by = *caught;

@@ -68,7 +68,8 @@ class List {
     if (!makes_sense(node, kind)) return;
     const std::string_view why = no_difference(node, kind);
     if (why.empty()) {
-      found_.faults.push_back({leaf, {kind, late_of(node, kind)}});
+      const bool is_late = kind == FaultKind::EndsLate;
+      found_.faults.push_back({leaf, {kind, is_late ? choices_.late : 0}});
     } else {
       leave_out(leaf, kind, why);
     }
@@ -116,12 +117,6 @@ class List {
     return "";
   }
 
-  int late_of(const Node& node, FaultKind kind) const {
-    if (kind != FaultKind::EndsLate) return 0;
-    const bool has_most = node.duration && node.duration->max != kEndless;
-    return choices_.late + (has_most ? node.duration->max : 0);
-  }
-
   void leave_out(NodeId leaf, FaultKind kind, std::string_view why) {
     auto same = std::ranges::find(found_.left_out, why, &LeftOut::why);
     if (same == found_.left_out.end()) {
@@ -140,10 +135,40 @@ class List {
   PossibleFaults found_;
 };
 
-void let_work(Node& node) {
-  LeafContract& contract = node.contract;
-  if (is_taken_for_condition(node)) contract.may_run = false;
-  if (is_deed(node) && contract.may_succeed) contract.may_fail = false;
+// Of these leaves none takes so long that the Timeout above them is over: each
+// has an equal part of its time.
+void end_in_time(BehaviorTree& tree, const Node& timeout) {
+  std::vector<NodeId> leaves;
+  std::vector<NodeId> open = timeout.children;
+  while (!open.empty()) {
+    const NodeId here = open.back();
+    open.pop_back();
+    const Node& node = tree.node(here);
+    open.insert(open.end(), node.children.begin(), node.children.end());
+    if (is_deed(node) && node.contract.may_run) leaves.push_back(here);
+  }
+  for (const NodeId leaf : leaves) {
+    Node& node = tree.nodes[index(leaf)];
+    const int most = std::max(timeout.duration->max - 1, 0) /
+                     static_cast<int>(leaves.size());
+    if (!node.duration) node.duration = Duration{0, most};
+  }
+}
+
+// What a leaf that works does not do.
+void let_work(BehaviorTree& tree) {
+  for (Node& node : tree.nodes) {
+    LeafContract& contract = node.contract;
+    if (is_taken_for_condition(node)) contract.may_run = false;
+    if (is_deed(node) && contract.may_succeed) contract.may_fail = false;
+  }
+  // From below: the nearest Timeout is the shortest.
+  for (std::size_t n = tree.nodes.size(); n-- > 0;) {
+    const Node& node = tree.nodes[n];
+    const bool has_end = node.type == NodeType::Timeout && node.duration &&
+                         node.duration->max != kUnboundedTicks;
+    if (has_end) end_in_time(tree, Node(node));
+  }
 }
 
 }  // namespace
@@ -170,9 +195,15 @@ PossibleFaults possible_faults(const BehaviorTree& tree,
 BehaviorTree with_faults(const BehaviorTree& tree,
                          std::span<const InjectedFault> faults, Others others) {
   BehaviorTree changed = tree;
-  if (others == Others::Work) std::ranges::for_each(changed.nodes, let_work);
+  if (others == Others::Work) let_work(changed);
   for (const InjectedFault& each : faults) {
-    changed.nodes[index(each.leaf)].fault = each.fault;
+    Node& node = changed.nodes[index(each.leaf)];
+    node.fault = each.fault;
+    // Beyond what its contract says.
+    const bool has_most = node.duration && node.duration->max != kEndless;
+    if (each.fault.kind == FaultKind::EndsLate && has_most) {
+      node.fault->late += node.duration->max;
+    }
   }
   return changed;
 }

@@ -16,7 +16,8 @@ namespace btcheck {
 
 // What the leaves do that have no fault.
 enum class Others : std::uint8_t {
-  Work,       // an action does what it is for; a condition says yes or no
+  Work,       // an action does what it is for, before a Timeout above it is
+              // over; a condition says yes or no
   AsContract  // whatever their contracts allow
 };
 

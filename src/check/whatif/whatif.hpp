@@ -94,7 +94,7 @@ struct Effect {
 struct Recovery {
   NodeId caught_by{};           // does something else than pass it on
   std::vector<NodeId> through;  // leaves that are asked on no healthy run
-  bool is_asked_again = false;  // the leaf itself, and does it then
+  bool is_asked_again = false;  // the leaf itself
 };
 
 struct FaultRow {
