@@ -96,12 +96,31 @@ EngineStatus NaiveEngine::tick_root(int tick) {
   return answer;
 }
 
+std::vector<int> NaiveEngine::words() const {
+  std::vector<int> words;
+  for (std::size_t n = 0; n < status_.size(); ++n) {
+    const Memory& known = memory_[n];
+    const auto& duration = tree_.nodes[n].duration;
+    // A timer that has run out has run out.
+    const int most = duration ? duration->max : 0;
+    const int since = known.since < 0 ? -1 : std::min(now_ - known.since, most);
+    for (const int word :
+         {static_cast<int>(status_[n]), static_cast<int>(known.child),
+          known.count, known.failures, known.skipped, known.running_child,
+          known.flag ? 1 : 0, known.other_flag ? 1 : 0, since}) {
+      words.push_back(word);
+    }
+  }
+  return words;
+}
+
 bool NaiveEngine::is_due(NodeId id) const {
   const Memory& known = memory_[index(id)];
   return known.since >= 0 && now_ - known.since >= node(id).duration->max;
 }
 
 EngineStatus NaiveEngine::execute(NodeId id) {
+  called(id);
   const EngineStatus before = status(id);
   std::optional<EngineStatus> answer;
   if (!is_active(before)) {

@@ -43,6 +43,15 @@ class NaiveEngine {
   EngineStatus tick_root(int tick);
   EngineStatus status(NodeId node) const { return status_[index(node)]; }
 
+  // What the world is asked now is whether a script is true.
+  bool asks_script() const { return asks_script_; }
+  // Called with each node that is about to be executed, before all else.
+  std::function<void(NodeId)> called = [](NodeId) {};
+  // haltNode from outside: nobody tells its parent.
+  void halt_from_outside(NodeId node) { reset(node); }
+  // All that the next ticks depend on, as they begin.
+  std::vector<int> words() const;
+
  private:
   // What a node remembers beside its status; which of it, its type says.
   struct Memory {
@@ -58,7 +67,12 @@ class NaiveEngine {
 
   const Node& node(NodeId id) const { return tree_.node(id); }
   Memory& memory(NodeId id) { return memory_[index(id)]; }
-  bool asks_true(NodeId id) { return ask_(id) == "true"; }
+  bool asks_true(NodeId id) {
+    asks_script_ = true;
+    const bool is_true = ask_(id) == "true";
+    asks_script_ = false;
+    return is_true;
+  }
   bool has(NodeId id, ScriptTime time) const {
     return node(id).script(time) != nullptr;
   }
@@ -106,6 +120,7 @@ class NaiveEngine {
   std::vector<EngineStatus> status_;
   std::vector<Memory> memory_;
   int now_ = 0;
+  bool asks_script_ = false;
 };
 
 }  // namespace btcheck::reference

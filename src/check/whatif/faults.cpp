@@ -149,7 +149,7 @@ void end_in_time(BehaviorTree& tree, const Node& timeout) {
   }
   for (const NodeId leaf : leaves) {
     Node& node = tree.nodes[index(leaf)];
-    const int most = std::max(timeout.duration->max - 1, 0) /
+    const int most = std::max(timeout.duration->min - 1, 0) /
                      static_cast<int>(leaves.size());
     if (!node.duration) node.duration = Duration{0, most};
   }
@@ -166,6 +166,7 @@ void let_work(BehaviorTree& tree) {
   for (std::size_t n = tree.nodes.size(); n-- > 0;) {
     const Node& node = tree.nodes[n];
     const bool has_end = node.type == NodeType::Timeout && node.duration &&
+                         node.duration->max > 0 &&
                          node.duration->max != kUnboundedTicks;
     if (has_end) end_in_time(tree, Node(node));
   }
