@@ -2,6 +2,7 @@
 #include "reference/naive_faults.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -9,6 +10,7 @@
 
 #include "model/tree/node_types.hpp"
 #include "reference/naive_engine.hpp"
+#include "reference/tick_interpreter.hpp"
 
 namespace btcheck::reference {
 namespace {
@@ -46,6 +48,40 @@ class Ways {
   std::size_t at_ = 0;
 };
 
+bool is_action(const Node& node) {
+  return node.type == NodeType::Action && node.contract.may_run;
+}
+
+bool is_below(const BehaviorTree& tree, NodeId at, NodeId above) {
+  while (at != above && !tree.node(at).is_root()) at = tree.node(at).parent;
+  return at == above;
+}
+
+// A Timeout bounds what works below it: the nearest one, in equal parts. By
+// node: the most ticks that it runs; -1: any number.
+std::vector<int> bounds(const BehaviorTree& tree) {
+  std::vector<int> most(tree.nodes.size(), -1);
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    if (!is_action(tree.nodes[n])) continue;
+    for (NodeId at{n}; !tree.node(at).is_root(); at = tree.node(at).parent) {
+      const Node& node = tree.node(at);
+      if (node.type != NodeType::Timeout || !node.duration ||
+          node.duration->max == 0) {
+        continue;
+      }
+      if (node.duration->max > 60) throw TooMuch("it takes too long");
+      int count = 0;
+      for (std::uint32_t other = 0; other < tree.nodes.size(); ++other) {
+        count +=
+            is_action(tree.nodes[other]) && is_below(tree, NodeId{other}, at);
+      }
+      most[n] = std::max(node.duration->min - 1, 0) / count;
+      break;
+    }
+  }
+  return most;
+}
+
 enum class End : std::uint8_t { None, Success, Failure, Exception };
 
 // What a leaf does beside what the engine knows of it.
@@ -67,9 +103,7 @@ struct State {
 class Mission {
  public:
   Mission(const BehaviorTree& tree, std::span<const NaiveFault> faults)
-      : tree_(tree), faults_(faults), most_(tree.nodes.size(), -1) {
-    for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) limit(n);
-  }
+      : tree_(tree), faults_(faults), most_(bounds(tree)) {}
 
   State initial() {
     State state(NaiveEngine(
@@ -139,36 +173,6 @@ class Mission {
   std::optional<NodeId> left_out;
 
  private:
-  static bool is_action(const Node& node) {
-    return node.type == NodeType::Action;
-  }
-
-  // A Timeout bounds what works below it: the nearest one, in equal parts.
-  void limit(std::uint32_t n) {
-    if (!is_action(tree_.nodes[n]) || !tree_.nodes[n].contract.may_run) return;
-    for (NodeId at{n}; !tree_.node(at).is_root(); at = tree_.node(at).parent) {
-      const Node& node = tree_.node(at);
-      if (node.type != NodeType::Timeout || !node.duration) continue;
-      if (node.duration->max > 60) throw TooMuch("it takes too long");
-      if (node.duration->max == 0) continue;
-      most_[n] = std::max(node.duration->min - 1, 0) / actions_below(at);
-      return;
-    }
-  }
-  int actions_below(NodeId above) const {
-    int count = 0;
-    for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
-      if (!is_action(tree_.nodes[n]) || !tree_.nodes[n].contract.may_run) {
-        continue;
-      }
-      for (NodeId at{n}; !tree_.node(at).is_root();
-           at = tree_.node(at).parent) {
-        if (at == above) ++count;
-      }
-    }
-    return count;
-  }
-
   const NaiveFault* fault_of(NodeId node) const {
     const auto found = std::ranges::find(faults_, node, &NaiveFault::leaf);
     return found == faults_.end() ? nullptr : &*found;
@@ -236,7 +240,8 @@ class Mission {
     const LeafContract& contract = asked_one.contract;
     std::vector<std::string> answers;
     if (contract.may_succeed) answers.emplace_back("success");
-    const bool must_succeed = is_action(asked_one) && contract.may_succeed;
+    const bool must_succeed =
+        asked_one.type == NodeType::Action && contract.may_succeed;
     if (contract.may_fail && !must_succeed) answers.emplace_back("failure");
     LeafState& state = leaf(node);
     const int most = most_[index(node)];
@@ -304,63 +309,293 @@ class Mission {
 
 }  // namespace
 
+namespace {
+
+// All states behind ticks, and what follows from them.
+template <class Mission>
+std::optional<NaiveEffect> explored(Mission& mission, std::size_t most_states) {
+  auto first = mission.initial();
+  using Each = decltype(first);
+  std::vector<std::unique_ptr<Each>> states;
+  std::vector<std::vector<std::size_t>> sources;
+  std::map<std::vector<int>, std::size_t> known;
+  NaiveEffect effect;
+  const auto number_of = [&](const Each& state) {
+    const auto [place, is_new] =
+        known.emplace(mission.key(state), states.size());
+    if (is_new) {
+      states.push_back(std::make_unique<Each>(state));
+      sources.emplace_back();
+    }
+    return place->second;
+  };
+  number_of(first);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states.size() > most_states) return std::nullopt;
+    if (states[i]->end != End::None) continue;
+    // Timers know how long they run, not when they began.
+    const int tick = states[i]->tick + 1;
+    const Each from = *states[i];
+    mission.for_each_tick(from, tick, [&](Each& next) {
+      next.tick = tick;
+      sources[number_of(next)].push_back(i);
+      effect.asked.insert(mission.asked.begin(), mission.asked.end());
+    });
+  }
+  std::vector<bool> can_end(states.size(), false);
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i]->end == End::None) continue;
+    can_end[i] = true;
+    open.push_back(i);
+  }
+  while (!open.empty()) {
+    const std::size_t here = open.back();
+    open.pop_back();
+    for (const std::size_t source : sources[here]) {
+      if (can_end[source]) continue;
+      can_end[source] = true;
+      open.push_back(source);
+    }
+  }
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (!mission.has_struck(*states[i])) continue;
+    effect.strikes = true;
+    effect.succeeds |= states[i]->end == End::Success;
+    effect.fails |= states[i]->end == End::Failure;
+    effect.throws |= states[i]->end == End::Exception;
+    effect.hangs |= !can_end[i];
+  }
+  effect.states = states.size();
+  return effect;
+}
+
+// The same of a .btf tree, of which the interpreter is copied.
+struct BtfState {
+  explicit BtfState(TickInterpreter from) : tree(std::move(from)) {}
+  TickInterpreter tree;
+  std::vector<LeafState> leaves;
+  End end = End::None;
+  int tick = 0;
+};
+
+class BtfMission {
+ public:
+  BtfMission(const BehaviorTree& tree, std::span<const NaiveFault> faults)
+      : tree_(tree), faults_(faults) {
+    const std::vector<int> most = bounds(tree);
+    for (std::uint32_t n = 0; n < most.size(); ++n) {
+      auto& duration = tree_.nodes[n].duration;
+      if (most[n] >= 0 && !duration) duration = Duration{0, most[n]};
+    }
+  }
+
+  BtfState initial() {
+    Script script;
+    script.action = [this](NodeId leaf, std::span<const NodeStatus> allowed) {
+      return well(leaf, allowed);
+    };
+    script.set_sv = [this](NodeId leaf, std::span<const int> allowed) {
+      return found(leaf, allowed);
+    };
+    script.due = [this](NodeId, int) { return ways_->choose(2) == 1; };
+    script.ill = [this](NodeId leaf, const auto& allowed) {
+      return ill(leaf, allowed);
+    };
+    script.writes = [this](NodeId leaf, StateVariableId variable, int present,
+                           int value) {
+      return written(leaf, variable, present, value);
+    };
+    script.halted = [this](NodeId leaf) { of(leaf).late = 0; };
+    BtfState state(TickInterpreter(tree_, script));
+    state.leaves.resize(tree_.nodes.size());
+    return state;
+  }
+
+  template <class Found>
+  void for_each_tick(const BtfState& from, int, Found found) {
+    Ways ways;
+    do {
+      if (++tried_ > kMostTicks) throw TooMuch("so many ways");
+      ways.begin();
+      ways_ = &ways;
+      auto next = std::make_unique<BtfState>(from);
+      now_ = next.get();
+      asked.clear();
+      const TickResult result = next->tree.tick();
+      if (result.fault) {
+        next->end = End::Exception;
+      } else if (result.root == NodeStatus::Success) {
+        next->end = End::Success;
+      } else if (result.root == NodeStatus::Failure) {
+        next->end = End::Failure;
+      }
+      found(*next);
+    } while (ways.next());
+  }
+
+  bool has_struck(const BtfState& state) const {
+    return std::ranges::all_of(faults_, [&](const NaiveFault& fault) {
+      return state.leaves[index(fault.leaf)].phase != 0;
+    });
+  }
+
+  std::vector<int> key(const BtfState& state) const {
+    const TickResult all = state.tree.state();
+    std::vector<int> words = all.variables;
+    for (const NodeStatus status : all.statuses) {
+      words.push_back(static_cast<int>(status));
+    }
+    for (const LocalValue& local : all.locals) words.push_back(local.value);
+    for (const TimerValue& timer : all.timers) {
+      words.push_back(static_cast<int>(timer.phase));
+      words.push_back(timer.elapsed);
+    }
+    for (const LeafState& leaf : state.leaves) {
+      words.push_back(leaf.phase);
+      words.push_back(leaf.late);
+    }
+    words.push_back(static_cast<int>(state.end));
+    return words;
+  }
+
+  std::set<NodeId> asked;
+
+ private:
+  const NaiveFault* fault_of(NodeId node) const {
+    const auto found = std::ranges::find(faults_, node, &NaiveFault::leaf);
+    return found == faults_.end() ? nullptr : &*found;
+  }
+  bool has(NodeId node, FaultKind kind) const {
+    const NaiveFault* fault = fault_of(node);
+    return fault != nullptr && fault->kind == kind;
+  }
+  LeafState& of(NodeId leaf) { return now_->leaves[index(leaf)]; }
+  bool has_begun(NodeId leaf) const {
+    const TickResult all = now_->tree.state();
+    return std::ranges::any_of(all.timers, [&](const TimerValue& timer) {
+      return timer.node == leaf && timer.phase != TimerPhase::Idle;
+    });
+  }
+
+  NodeStatus well(NodeId leaf, std::span<const NodeStatus> allowed) {
+    std::vector<NodeStatus> answers(allowed.begin(), allowed.end());
+    const bool can_succeed =
+        std::ranges::find(answers, NodeStatus::Success) != answers.end();
+    if (tree_.node(leaf).type == NodeType::Action && can_succeed) {
+      std::erase(answers, NodeStatus::Failure);
+    }
+    return answers[static_cast<std::size_t>(
+        ways_->choose(static_cast<int>(answers.size())))];
+  }
+
+  int found(NodeId leaf, std::span<const int> allowed) {
+    if (has_struck(*now_)) asked.insert(leaf);
+    if (has(leaf, FaultKind::WritesNothing)) {
+      of(leaf).phase = 1;
+      return allowed[0];
+    }
+    return allowed[static_cast<std::size_t>(
+        ways_->choose(static_cast<int>(allowed.size())))];
+  }
+
+  std::optional<int> written(NodeId leaf, StateVariableId variable, int present,
+                             int value) {
+    const bool is_nothing = has(leaf, FaultKind::WritesNothing);
+    if (!is_nothing && !has(leaf, FaultKind::WritesOther)) return std::nullopt;
+    of(leaf).phase = 1;
+    if (is_nothing) return present;
+    const StateVariable& written = tree_.variable(variable);
+    std::vector<int> others;
+    for (int v = written.min; v <= written.max; ++v) {
+      if (v != value) others.push_back(v);
+    }
+    return others[static_cast<std::size_t>(
+        ways_->choose(static_cast<int>(others.size())))];
+  }
+
+  Script::Ill ill(NodeId node,
+                  const std::function<std::vector<NodeStatus>()>& allowed) {
+    if (has_struck(*now_)) asked.insert(node);
+    const NaiveFault* fault = fault_of(node);
+    if (fault == nullptr) return {};
+    LeafState& state = of(node);
+    const auto inverted = [&] {
+      const auto answers = allowed();
+      return std::ranges::find(answers, NodeStatus::Success) == answers.end()
+                 ? NodeStatus::Success
+                 : NodeStatus::Failure;
+    };
+    using enum FaultKind;
+    switch (fault->kind) {
+      case Fails:
+        state.phase = 1;
+        return {NodeStatus::Failure};
+      case Succeeds:
+        state.phase = 1;
+        return {NodeStatus::Success};
+      case FailsOnce:
+        if (state.phase != 0 || ways_->choose(2) == 0) return {};
+        state.phase = 2;
+        return {NodeStatus::Failure};
+      case FailsOn:
+      case NeverEnds:
+        if (state.phase == 0 && ways_->choose(2) == 0) return {};
+        state.phase = 1;
+        return {fault->kind == FailsOn ? NodeStatus::Failure
+                                       : NodeStatus::Running};
+      case Inverted:
+        state.phase = 1;
+        return {inverted()};
+      case FlipsOnce:
+        if (state.phase != 0 || ways_->choose(2) == 0) return {};
+        state.phase = 2;
+        return {inverted()};
+      case EndsLate: {
+        state.phase = 1;
+        const auto& duration = tree_.node(node).duration;
+        const bool ends = duration && duration->max != kEndless;
+        const int most = fault->late + (ends ? duration->max : 0);
+        if (state.late < most) {
+          ++state.late;
+          return {NodeStatus::Running};
+        }
+        state.late = 0;
+        auto answers = allowed();
+        std::erase(answers, NodeStatus::Running);
+        return {well(node, answers)};
+      }
+      case Halted:
+        if (state.phase != 0 || !has_begun(node) || ways_->choose(2) == 0) {
+          return {};
+        }
+        state.phase = 2;
+        return {{}, true};
+      default:
+        return {};
+    }
+  }
+
+  BehaviorTree tree_;
+  std::span<const NaiveFault> faults_;
+  Ways* ways_ = nullptr;
+  BtfState* now_ = nullptr;
+  std::size_t tried_ = 0;
+  static constexpr std::size_t kMostTicks = 20'000;
+};
+
+}  // namespace
+
 std::optional<NaiveEffect> naive_effect(const BehaviorTree& tree,
                                         std::span<const NaiveFault> faults,
                                         std::size_t most_states) {
   try {
+    if (tree.profile == Profile::Paper) {
+      BtfMission mission(tree, faults);
+      return explored(mission, most_states);
+    }
     Mission mission(tree, faults);
-    std::vector<std::unique_ptr<State>> states;
-    std::vector<std::vector<std::size_t>> sources;
-    std::map<std::vector<int>, std::size_t> known;
-    NaiveEffect effect;
-    const auto number_of = [&](const State& state) {
-      const auto [place, is_new] =
-          known.emplace(mission.key(state), states.size());
-      if (is_new) {
-        states.push_back(std::make_unique<State>(state));
-        sources.emplace_back();
-      }
-      return place->second;
-    };
-    number_of(mission.initial());
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      if (states.size() > most_states) return std::nullopt;
-      if (states[i]->end != End::None) continue;
-      // Timers know how long they run, not when they began.
-      const int tick = states[i]->tick + 1;
-      const State from = *states[i];
-      mission.for_each_tick(from, tick, [&](State& next) {
-        next.tick = tick;
-        sources[number_of(next)].push_back(i);
-        effect.asked.insert(mission.asked.begin(), mission.asked.end());
-      });
-    }
-    std::vector<bool> can_end(states.size(), false);
-    std::vector<std::size_t> open;
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      if (states[i]->end == End::None) continue;
-      can_end[i] = true;
-      open.push_back(i);
-    }
-    while (!open.empty()) {
-      const std::size_t here = open.back();
-      open.pop_back();
-      for (const std::size_t source : sources[here]) {
-        if (can_end[source]) continue;
-        can_end[source] = true;
-        open.push_back(source);
-      }
-    }
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      if (!mission.has_struck(*states[i])) continue;
-      effect.strikes = true;
-      effect.succeeds |= states[i]->end == End::Success;
-      effect.fails |= states[i]->end == End::Failure;
-      effect.throws |= states[i]->end == End::Exception;
-      effect.hangs |= !can_end[i];
-    }
-    effect.states = states.size();
-    return effect;
+    return explored(mission, most_states);
   } catch (const TooMuch&) {
     return std::nullopt;
   }

@@ -274,6 +274,7 @@ void TickInterpreter::halt_running_children(NodeId id) {
 
 // A node passes the halt down first, and ends with failure.
 void TickInterpreter::halt_node(NodeId id) {
+  if (script_.halted && is_leaf(node(id).type)) script_.halted(id);
   memory(id).status = NodeStatus::HaltMe;
   halt_running_children(id);
   forget(id);
@@ -530,6 +531,12 @@ std::vector<NodeStatus> TickInterpreter::allowed_answers(NodeId id) const {
 }
 
 NodeStatus TickInterpreter::tick_action(NodeId id) {
+  if (script_.ill) {
+    const Script::Ill ill =
+        script_.ill(id, [&] { return allowed_answers(id); });
+    if (ill.answer || ill.begins_anew) memory(id).timer = {};
+    if (ill.answer) return answered(id, *ill.answer);
+  }
   if (has_timer(id) && memory(id).timer.phase == TimerPhase::Idle)
     start_timer(id);
   const std::vector<NodeStatus> allowed = allowed_answers(id);
@@ -538,11 +545,31 @@ NodeStatus TickInterpreter::tick_action(NodeId id) {
       script_.action ? script_.action(id, allowed) : allowed.front();
   if (std::ranges::find(allowed, answer) == allowed.end())
     throw std::logic_error("the leaf may not answer that");
+  return answered(id, answer);
+}
+
+NodeStatus TickInterpreter::answered(NodeId id, NodeStatus answer) {
   if (answer == NodeStatus::Running) return answer;
   memory(id).timer = {};
   const LeafContract& contract = node(id).contract;
-  assign(answer == NodeStatus::Success ? contract.on_success
-                                       : contract.on_failure);
+  if (answer != NodeStatus::Success) {
+    assign(contract.on_failure);
+    return answer;
+  }
+  if (!script_.writes) {
+    assign(contract.on_success);
+    return answer;
+  }
+  for (const StateAssignment& effect : contract.on_success) {
+    const auto other =
+        script_.writes(id, effect.variable, variables_[index(effect.variable)],
+                       static_cast<int>(evaluate(effect.value)));
+    if (other) {
+      variables_[index(effect.variable)] = *other;
+    } else {
+      assign({&effect, 1});
+    }
+  }
   return answer;
 }
 

@@ -50,6 +50,21 @@ struct Script {
   // is stands first, unless its time is over.
   std::function<int(StateVariableId variable, std::span<const int> allowed)>
       timely_move;
+  // Of a leaf that is at fault: asked before all else, what it answers instead.
+  // `begins_anew`: nothing, but its timer is forgotten.
+  struct Ill {
+    std::optional<NodeStatus> answer = {};
+    bool begins_anew = false;
+  };
+  std::function<Ill(NodeId leaf,
+                    const std::function<std::vector<NodeStatus>()>& allowed)>
+      ill = {};
+  // What it writes instead of a value, where `present` stands; nothing: that.
+  std::function<std::optional<int>(NodeId leaf, StateVariableId variable,
+                                   int present, int value)>
+      writes = {};
+  // A leaf is halted.
+  std::function<void(NodeId leaf)> halted = {};
 };
 
 // A local variable of a node's automaton, by the norm's name; the table
@@ -152,6 +167,7 @@ class TickInterpreter {
   NodeStatus tick_round_robin(NodeId id);
   NodeStatus tick_pipeline(NodeId id);
   NodeStatus tick_action(NodeId id);
+  NodeStatus answered(NodeId id, NodeStatus answer);
   NodeStatus tick_set_sv(NodeId id);
   NodeStatus tick_eval(NodeId id);
   NodeStatus tick_wait(NodeId id);

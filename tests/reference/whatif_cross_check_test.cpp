@@ -20,6 +20,7 @@
 #include "model/tree/node_types.hpp"
 #include "reference/effort.hpp"
 #include "reference/naive_faults.hpp"
+#include "reference/random_tree.hpp"
 #include "reference/random_xml_tree.hpp"
 
 namespace btcheck::reference::whatif_cross_check_test {
@@ -40,6 +41,27 @@ std::optional<RandomMission> mission(std::uint64_t seed) {
   tree.reading.profile = profile;
   auto input = what_if_input(tree, {});
   if (!input.value) return std::nullopt;
+  return RandomMission{std::string(tree.text), std::move(*input.value)};
+}
+
+// A .btf tree, of which nothing moves by itself.
+std::optional<RandomMission> btf_mission(std::uint64_t seed) {
+  RandomTreeWeights weights;
+  weights.contract = 70;
+  weights.decided = 50;
+  weights.duration = 30;
+  weights.sampled = 100;
+  weights.leaving_range = 10;
+  weights.looping_root = 0;
+  weights.max_parallels = 0;
+  TreeInput tree("t.btf", FileText(random_tree(seed, weights)));
+  auto input = what_if_input(tree, {});
+  if (!input.value || input.value->tree.roots.size() != 1) return std::nullopt;
+  for (std::uint32_t v = 0; v < input.value->tree.variables.size(); ++v) {
+    if (moves_freely(input.value->tree, StateVariableId{v})) {
+      return std::nullopt;
+    }
+  }
   return RandomMission{std::string(tree.text), std::move(*input.value)};
 }
 
@@ -90,7 +112,10 @@ std::string asked_text(const std::set<NodeId>& asked) {
 std::string asked_text(const BehaviorTree& tree, const std::vector<bool>& all) {
   std::set<NodeId> asked;
   for (std::uint32_t n = 0; n < all.size(); ++n) {
-    if (all[n] && is_leaf(tree.nodes[n].type)) asked.insert(NodeId{n});
+    const NodeType type = tree.nodes[n].type;
+    const bool counts = type == NodeType::Action ||
+                        type == NodeType::Condition || type == NodeType::SetSV;
+    if (all[n] && counts) asked.insert(NodeId{n});
   }
   return asked_text(asked);
 }
@@ -125,9 +150,11 @@ std::string difference(const RandomMission& mission, Counts& counts) {
       return fmt::format("{}: naive  {}\n  search {}", told(tree, row.faults),
                          word(*expected), word(row.effect));
     }
-    if (asked_text(expected->asked) != asked_text(tree, row.asked)) {
+    std::vector<bool> naively(tree.nodes.size(), false);
+    for (const NodeId node : expected->asked) naively[index(node)] = true;
+    if (asked_text(tree, naively) != asked_text(tree, row.asked)) {
       return fmt::format("{}: naive asks {}, search asks {}",
-                         told(tree, row.faults), asked_text(expected->asked),
+                         told(tree, row.faults), asked_text(tree, naively),
                          asked_text(tree, row.asked));
     }
     ++counts[row.harm];
@@ -268,10 +295,11 @@ bool is_small(const BehaviorTree& tree) {
 }
 
 template <class Difference>
-void compare(std::uint64_t first, std::uint64_t count, Difference difference) {
+void compare(std::uint64_t first, std::uint64_t count, Difference difference,
+             std::optional<RandomMission> (*draw)(std::uint64_t) = mission) {
   int differences = 0;
   for (std::uint64_t i = 0; i < count && differences < 3; ++i) {
-    const auto drawn = mission(first * 1'000'003 + i);
+    const auto drawn = draw(first * 1'000'003 + i);
     if (!drawn || !is_small(drawn->input.tree)) continue;
     const std::string found = difference(*drawn);
     if (found.empty()) continue;
@@ -296,6 +324,18 @@ TEST_CASE("each fault does what it does when it is put in by hand") {
                           Harm::MayFail, Harm::Survives, Harm::NotAsked}) {
     CHECK_COVERED(counts[harm] > 5);
   }
+}
+
+TEST_CASE("so it is in .btf trees, with what leaves write") {
+  Counts counts;
+  std::size_t compared = 0;
+  compare(
+      seed_or(3), by_effort<std::uint64_t>(150, 3000),
+      [&](const RandomMission& drawn) { return difference(drawn, counts); },
+      btf_mission);
+  for (const auto& [harm, count] : counts) compared += count;
+  MESSAGE(compared << " rows");
+  CHECK_COVERED(compared > 300);
 }
 
 TEST_CASE("cut sets are those of every pair") {

@@ -256,6 +256,7 @@ void draw_with_timer(NodeBuilder& draw, Results results) {
 void draw_action(NodeBuilder& draw) {
   const auto& fault = draw.node().fault;
   const bool is_late = fault && fault->kind == FaultKind::EndsLate;
+  const bool never_ends = fault && fault->kind == FaultKind::NeverEnds;
   if (draw.takes_time() && !is_late) {
     draw.frame();
     draw_with_timer(draw, [&](LocationId look, Expression due,
@@ -265,9 +266,8 @@ void draw_action(NodeBuilder& draw) {
     return;
   }
   // A :duration of no ticks leaves no tick on which to answer running.
-  const bool may_run =
-      draw.node().contract.may_run && (!draw.node().duration || is_late);
-  if (may_run) {
+  const bool may_run = draw.node().contract.may_run && !draw.node().duration;
+  if (may_run || is_late || never_ends) {
     draw.frame();
     if (!is_late) draw.edge(draw.at("halt"), draw.at("halted"));
   } else {
