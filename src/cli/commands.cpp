@@ -266,7 +266,7 @@ constexpr auto kRuns = std::to_array<RunOf>({
     {Command::Answer, run_answer},     {Command::Serve, run_serve},
     {Command::Mcp, run_mcp},           {Command::Lsp, run_lsp},
     {Command::Fmt, run_fmt},           {Command::Watch, run_watch},
-    {Command::WhatIf, run_whatif},
+    {Command::WhatIf, run_whatif},     {Command::Tests, run_tests},
 });
 static_assert(is_indexed(kRuns, &RunOf::command));
 

@@ -28,5 +28,6 @@ ExitCode run_conform(const Options& options);
 ExitCode run_monitor(const Options& options);
 ExitCode run_fmt(const Options& options);
 ExitCode run_whatif(const Options& options);
+ExitCode run_tests(const Options& options);
 
 }  // namespace btcheck

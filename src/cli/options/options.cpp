@@ -208,12 +208,31 @@ void settle_graph(const OptionWords& words, Options& options) {
   options.graph_file = target->file;
 }
 
+// Where tests are written to, and how.
+void settle_tests(const OptionWords& words, Options& options) {
+  const auto forms = choices_of(*option_of(Command::Tests, "--to"));
+  for (const std::string& word : words.all("--to")) {
+    const auto form = std::find(forms.begin(), forms.end(), word);
+    if (form == forms.end()) {
+      refuse(fmt::format("--to {}: no such format", word),
+             fmt::format("write {}", listed(forms, "or")));
+    }
+    options.tests.forms.insert(static_cast<TestForm>(form - forms.begin()));
+  }
+  options.tests.forces = words.has("--force");
+  if (words.value("-o").empty()) {
+    refuse("tests: no folder to write into", "btcheck tests TREE -o DIRECTORY");
+  }
+}
+
 // What an export or a run is written as.
 void settle_formats(const OptionWords& words, Options& options) {
   if (options.command == Command::Export) {
     settle_choice(words, "--to", options.format);
   } else if (options.command == Command::Leaves) {
     settle_choice(words, "--to", options.leaf_form);
+  } else if (options.command == Command::Tests) {
+    settle_tests(words, options);
   } else {
     settle_choice(words, "--to", options.trace.format);
   }

@@ -48,7 +48,8 @@ enum class Command : std::uint8_t {
   Lsp,
   Fmt,
   Watch,
-  WhatIf
+  WhatIf,
+  Tests
 };
 
 // The tree that `btcheck -` reads.
@@ -101,6 +102,13 @@ struct ExecutionPlan {
 
 // What `leaves` writes; in the order of --to in tables.cpp.
 enum class LeafForm : std::uint8_t { Models, Contracts };
+
+// How `tests` writes them; in the order of --to in tables.cpp.
+enum class TestForm : std::uint8_t { GoogleTest, Pytest, JsonLines };
+struct TestPlan {
+  std::set<TestForm> forms;  // --to; empty: all
+  bool forces = false;       // --force
+};
 
 // What `fmt` does with files that are in another style.
 struct FormattingPlan {
@@ -192,6 +200,7 @@ struct Options {
   FormattingPlan formatting;
   RobotPlan robots;
   FaultPlan faults;
+  TestPlan tests;
   std::optional<LeafForm> leaf_form;  // leaves: --to; else by the name of -o
   std::optional<GraphFormat> graph;   // space: --export
   std::string graph_file;             // "" for standard output

@@ -104,6 +104,19 @@ constexpr CommandRow kCommands[] = {
      .summary = "step through a tree, at random or by a script",
      .description = "Goes through one run of the tree: by hand, at random, or "
                     "as a script of leaf results says."},
+    {.command = Tests,
+     .word = "tests",
+     .argument = ArgumentKind::Tree,
+     .shown = "TREE",
+     .missing = "no tree",
+     .example = "btcheck tests TREE -o DIRECTORY",
+     .summary = "tests for your engine that reach all that is possible",
+     .description =
+         "Writes scripted runs of the tree, as tests of GoogleTest for "
+         "BehaviorTree.CPP, of pytest, and as lines of JSON: fakes answer for "
+         "the leaves, and each tick has what every node does then. Together "
+         "they reach every answer and every halt that a search of all runs "
+         "proves possible, but for what cannot be forced, which is named."},
     {.command = Run,
      .word = "run",
      .argument = ArgumentKind::Tree,
@@ -255,31 +268,32 @@ constexpr CommandRow kCommands[] = {
 constexpr CommandSet kReadsTrees = {Check,           Batch,    Lint, Space,
                                     Export,          Simulate, Init, Conform,
                                     Command::Answer, WhatIf};
-constexpr CommandSet kReadsModels = {Check,  Batch,           Lint,  Space,
-                                     Export, Simulate,        Init,  Conform,
-                                     Leaves, Command::Answer, WhatIf};
+constexpr CommandSet kReadsModels = {Check,  Batch,           Lint,   Space,
+                                     Export, Simulate,        Init,   Conform,
+                                     Leaves, Command::Answer, WhatIf, Tests};
 // An XML tree has an executor of its own.
-constexpr CommandSet kReadsBtf = {Check,    Batch, Lint,    Space, Export,
-                                  Simulate, Init,  Conform, Run,   WhatIf};
+constexpr CommandSet kReadsBtf = {Check,  Batch,    Lint, Space,
+                                  Export, Simulate, Init, Conform,
+                                  Run,    WhatIf,   Tests};
 constexpr CommandSet kHasSettings = {
-    Check, Batch,   Lint, Space,  Export,          Simulate,
-    Init,  Conform, Run,  Leaves, Command::Answer, Serve,
-    Mcp,   Lsp,     Fmt,  WhatIf};
+    Check,   Batch,  Lint,   Space,           Export, Simulate, Init,
+    Conform, Run,    Leaves, Command::Answer, Serve,  Mcp,      Lsp,
+    Fmt,     WhatIf, Tests};
 constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space,
                                   Demo,  Init,  Command::Answer};
 constexpr CommandSet kCountsStates = {Check, Batch,   Space,           Demo,
                                       Init,  Conform, Command::Answer, Serve,
-                                      Mcp,   Lsp,     WhatIf};
+                                      Mcp,   Lsp,     WhatIf,          Tests};
 constexpr CommandSet kLimited = {
-    Check,    Batch, Lint, Space,   Export, Trace,           Demo,
-    Simulate, Init,  Run,  Conform, Leaves, Command::Answer, Serve,
-    Mcp,      Lsp,   Fmt,  Watch,   WhatIf};
+    Check, Batch, Lint,    Space,  Export,          Trace, Demo, Simulate,
+    Init,  Run,   Conform, Leaves, Command::Answer, Serve, Mcp,  Lsp,
+    Fmt,   Watch, WhatIf,  Tests};
 constexpr CommandSet kEvery = {
     Check,    Batch,       Lint, Space,  Export,          Trace,
     Simulate, Explain,     Demo, Init,   Conform,         Run,
     Monitor,  Completions, Man,  Leaves, Command::Answer, Serve,
-    Mcp,      Lsp,         Fmt,  Watch,  WhatIf};
+    Mcp,      Lsp,         Fmt,  Watch,  WhatIf,          Tests};
 
 constexpr std::string_view kProfileNames =
     "paper btcpp-3.5.1 btcpp-3.5 btcpp-3.6 btcpp-3.7 btcpp-3.8 btcpp-4.0 "
@@ -581,6 +595,27 @@ constexpr OptionRow kOptions[] = {
      .commands = {Leaves},
      .first = {Leaves},
      .example = "btcheck leaves FOLDER --to leaves"},
+    {.name = "--to",
+     .value = "FORMAT",
+     .choices = "googletest pytest jsonl",
+     .fallback = "all of them",
+     .help = "how the tests are written",
+     .commands = {Tests},
+     .is_repeatable = true,
+     .first = {Tests},
+     .example = "btcheck tests TREE -o DIRECTORY --to googletest"},
+    {.name = "-o",
+     .value = "DIRECTORY",
+     .names = ValueKind::Directory,
+     .help = "the folder that the files are written into",
+     .commands = {Tests},
+     .first = {Tests},
+     .example = "btcheck tests TREE -o DIRECTORY"},
+    {.name = "--force",
+     .help = "replace files of these names, whoever has written them",
+     .commands = {Tests},
+     .first = {Tests},
+     .example = "btcheck tests TREE -o DIRECTORY --force"},
     {.name = "-o",
      .value = "FILE",
      .names = ValueKind::File,

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+//
+// What is to be covered are the edges of the nodes' automata: an answer is the
+// edge that leads to it, and what a node does about the answer of a child is an
+// edge as well. Greedy: the edge that lies deepest first, then on from there to
+// the nearest that is not covered, as long as there is one within reach; in the
+// end, tests that show nothing of their own are left out.
+#include "suites/suite.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <unordered_map>
+
+#include "explore/search/reachability.hpp"
+#include "suites/names.hpp"
+#include "text/budget.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr int kMostTicks = 30;        // of a test
+constexpr std::size_t kNear = 3'000;  // states looked at for the next edge
+constexpr std::size_t kWithinTick = 100'000;  // and for the end of the tick
+
+// The step that leads to an edge first.
+struct FirstSteps : ReachabilityVisitor {
+  explicit FirstSteps(std::size_t edges) : from(edges) {}
+
+  void stepped(StateId state, Step step, StateId) {
+    if (step.edge == kTimeStep || from[step.edge]) return;
+    from[step.edge] = state;
+    order.push_back(step.edge);
+  }
+
+  std::vector<std::optional<StateId>> from;  // by edge
+  std::vector<std::uint32_t> order;          // as they were found
+};
+
+struct WordsHash {
+  std::size_t operator()(const StateVector& words) const {
+    std::size_t hash = 0xcbf29ce484222325;
+    for (const Word word : words) {
+      hash = (hash ^ word) * 0x9e3779b97f4a7c15;
+      hash ^= hash >> 29;
+    }
+    return hash;
+  }
+};
+
+// A run on its way.
+struct Course {
+  std::vector<Step> steps;
+  StateVector state;
+};
+
+// Goes on by the fewest steps to one that is wanted; false where none is near.
+bool go_on(
+    const ForcedNetwork& forced, Course& course, std::size_t most,
+    const std::function<bool(const Step&)>& is_wanted,
+    const std::function<bool(const Step&)>& is_passed = [](const Step&) {
+      return true;
+    }) {
+  struct Reached {
+    const StateVector* state;
+    std::size_t from;
+    Step step;
+  };
+  std::unordered_map<StateVector, std::size_t, WordsHash> known;
+  std::vector<Reached> reached;
+  const auto add = [&](StateVector state, std::size_t from, const Step& step) {
+    const auto [at, is_new] = known.emplace(std::move(state), reached.size());
+    if (is_new) reached.push_back({&at->first, from, step});
+  };
+  add(course.state, 0, {});
+  for (std::size_t i = 0; i < reached.size() && i < most; ++i) {
+    for (const ForcedNetwork::Way& way :
+         forced.ways(view_of(*reached[i].state))) {
+      if (!is_wanted(way.step)) {
+        if (is_passed(way.step)) add(way.after, i, way.step);
+        continue;
+      }
+      std::vector<Step> steps = {way.step};
+      for (std::size_t at = i; at != 0; at = reached[at].from) {
+        steps.push_back(reached[at].step);
+      }
+      course.steps.insert(course.steps.end(), steps.rbegin(), steps.rend());
+      course.state = way.after;
+      return true;
+    }
+  }
+  return false;
+}
+
+class SuiteMaker {
+ public:
+  SuiteMaker(const ForcedNetwork& forced, const DefaultReport& defaults,
+             const Limits& limits)
+      : forced_(forced),
+        network_(forced.network()),
+        defaults_(defaults),
+        limits_(limits),
+        is_covered_(network_.edge_count()) {}
+
+  Suite make(const std::vector<NamedRun>& also) {
+    for (const NodeReport& node : defaults_.nodes) {
+      if (forced_.tree().node(node.node).is_root()) continue;
+      for (std::size_t q = 1; q < kNodeQuestionCount; ++q) {
+        if (node.answers[q].verdict == Verdict::Holds) {
+          suite_.proven.insert({node.node, static_cast<NodeQuestion>(q)});
+        }
+      }
+    }
+    for (const NamedRun& run : also) {
+      auto test = told_test(forced_, run.steps);
+      if (!test) continue;
+      test->about = run.about;
+      test->code = run.code;
+      add(std::move(*test));
+    }
+    suite_.initial = initial_writes(forced_.tree());
+    cover();
+    drop_idle_tests(suite_.tests);
+    name_tests(forced_.tree(), network_, suite_.tests);
+    count();
+    return std::move(suite_);
+  }
+
+ private:
+  bool is_of_node(const Step& step) const {
+    return step.edge != kTimeStep &&
+           network_.owner_of_edge(step.edge).kind == AutomatonKind::Node;
+  }
+
+  void cover() {
+    BreadthFirst<ForcedNetwork> search(forced_, limits_);
+    FirstSteps first(network_.edge_count());
+    const ReachabilityResult result = search.run(first);
+    suite_.is_complete = result.is_complete;
+    std::vector<std::uint32_t> goals;
+    for (const std::uint32_t edge : first.order) {
+      if (is_of_node({edge})) goals.push_back(edge);
+    }
+    suite_.forced_edges = goals.size();
+    std::reverse(goals.begin(), goals.end());
+    for (const std::uint32_t goal : goals) {
+      if (is_covered_[goal]) continue;
+      ask_budget();
+      Course course;
+      for (const RunState& each : search.path_to(*first.from[goal])) {
+        course.steps.push_back(each.step);
+        course.state = each.state;
+      }
+      course.steps.erase(course.steps.begin());
+      if (!go_on(forced_, course, 1,
+                 [&](const Step& step) { return step.edge == goal; })) {
+        continue;
+      }
+      lengthen(course);
+      if (auto test = told_test(forced_, course.steps)) add(std::move(*test));
+    }
+  }
+
+  // On to what is not covered yet, and to the end of the tick.
+  void lengthen(Course& course) const {
+    std::vector<bool> is_covered = is_covered_;
+    const auto note = [&](std::size_t from) {
+      for (std::size_t i = from; i < course.steps.size(); ++i) {
+        if (is_of_node(course.steps[i]))
+          is_covered[course.steps[i].edge] = true;
+      }
+    };
+    const auto ends = [&](const Step& step) {
+      return ends_tick(forced_.tree(), network_, step);
+    };
+    note(0);
+    for (;;) {
+      const Course kept = course;
+      const bool is_open = !ends(course.steps.back());
+      // Within a tick first to its end, by what is new if there is any.
+      bool is_found = go_on(forced_, course, kNear, [&](const Step& step) {
+        return is_of_node(step) && !is_covered[step.edge];
+      });
+      if (is_found) {
+        const auto ticks = std::ranges::count_if(course.steps, ends);
+        Course whole = course;
+        const bool is_whole = ends(whole.steps.back()) ||
+                              forced_.is_fault(view_of(whole.state)) ||
+                              go_on(forced_, whole, kWithinTick, ends);
+        is_found = is_whole && ticks < kMostTicks;
+        if (!is_found) course = kept;
+      }
+      if (is_found) {
+        note(kept.steps.size());
+        continue;
+      }
+      if (is_open && !forced_.is_fault(view_of(course.state))) {
+        go_on(forced_, course, kWithinTick, ends);
+      }
+      return;
+    }
+  }
+
+  void add(SuiteTest test) {
+    for (const std::uint32_t edge : test.edges) is_covered_[edge] = true;
+    suite_.tests.push_back(std::move(test));
+  }
+
+  // Of those that are found: what is asked for stays.
+  static void drop_idle_tests(std::vector<SuiteTest>& tests) {
+    std::map<std::uint32_t, int> counts;
+    for (const SuiteTest& test : tests) {
+      for (const std::uint32_t edge : test.edges) ++counts[edge];
+    }
+    std::vector<std::size_t> order(tests.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::stable_sort(
+        order, {}, [&](std::size_t i) { return tests[i].edges.size(); });
+    std::set<std::size_t> dropped;
+    for (const std::size_t i : order) {
+      const bool is_idle =
+          tests[i].about.empty() &&
+          std::ranges::all_of(tests[i].edges, [&](std::uint32_t edge) {
+            return counts[edge] > 1;
+          });
+      if (!is_idle) continue;
+      dropped.insert(i);
+      for (const std::uint32_t edge : tests[i].edges) --counts[edge];
+    }
+    std::vector<SuiteTest> kept;
+    for (std::size_t i = 0; i < tests.size(); ++i) {
+      if (!dropped.contains(i)) kept.push_back(std::move(tests[i]));
+    }
+    tests = std::move(kept);
+  }
+
+  void count() {
+    std::set<std::uint32_t> edges;
+    for (const SuiteTest& test : suite_.tests) {
+      edges.insert(test.edges.begin(), test.edges.end());
+      for (const Cell& cell : test.cells) {
+        suite_.reached.insert(cell);
+        suite_.proven.insert(cell);
+      }
+    }
+    suite_.edges = edges.size();
+    for (const Cell& cell : suite_.proven) {
+      if (suite_.reached.contains(cell)) continue;
+      suite_.left_out.push_back({cell, reason_of(cell)});
+    }
+  }
+
+  // The first step of the witness that nobody can force.
+  std::string reason_of(const Cell& cell) const {
+    const auto report =
+        std::ranges::find(defaults_.nodes, cell.first, &NodeReport::node);
+    const auto& run =
+        report->answers[static_cast<std::size_t>(cell.second)].run;
+    if (!run) return "not within the limits";
+    StateVector state;
+    forced_.initial_states([&](StateView initial) {
+      state.assign(initial.begin(), initial.end());
+    });
+    for (const Step& step : run->steps()) {
+      const auto ways = forced_.ways(view_of(state));
+      const auto way = std::ranges::find(ways, step, &ForcedNetwork::Way::step);
+      if (way == ways.end()) return forced_.reason(step);
+      state = way->after;
+    }
+    return suite_.is_complete ? "what follows in that tick is not known"
+                              : "not within the limits";
+  }
+
+  const ForcedNetwork& forced_;
+  const Network& network_;
+  const DefaultReport& defaults_;
+  const Limits& limits_;
+  std::vector<bool> is_covered_;  // by edge
+  Suite suite_;
+};
+
+}  // namespace
+
+Suite make_suite(const ForcedNetwork& forced, const DefaultReport& defaults,
+                 const std::vector<NamedRun>& also, const Limits& limits) {
+  return SuiteMaker(forced, defaults, limits).make(also);
+}
+
+std::string suite_summary(const Suite& suite, const BehaviorTree& tree) {
+  const std::size_t of = suite.proven.size();
+  const std::size_t reached = suite.reached.size();
+  std::string text = fmt::format(
+      "{} {} {} of {} answers and halts that are proven possible ({} %)",
+      suite.tests.size(),
+      suite.tests.size() == 1 ? "test reaches" : "tests reach", reached, of,
+      of == 0 ? 100 : 100 * reached / of);
+  std::map<std::string, std::vector<std::string>> by_reason;
+  for (const LeftOut& left : suite.left_out) {
+    by_reason[left.reason].push_back(fmt::format(
+        "{} {}", short_name(tree, left.cell.first), word_of(left.cell.second)));
+  }
+  if (!suite.left_out.empty()) {
+    text += fmt::format("; left out by name: {}", suite.left_out.size());
+  }
+  text += '\n';
+  for (const auto& [reason, cells] : by_reason) {
+    text += fmt::format("  {}:", reason);
+    for (const std::string& cell : cells) {
+      text += fmt::format("{} {}", &cell == &cells.front() ? "" : ",", cell);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace btcheck
