@@ -268,7 +268,7 @@ class SuiteMaker {
       if (way == ways.end()) return forced_.reason(step);
       state = way->after;
     }
-    return suite_.is_complete ? "what follows in that tick is not known"
+    return suite_.is_complete ? "that tick throws, or what follows in it is not known"
                               : "not within the limits";
   }
 

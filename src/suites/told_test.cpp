@@ -163,7 +163,8 @@ class TestTeller {
     test_.ticks.push_back(std::move(tick_));
     tick_ = {};
     test_.leaves = leaves_;
-    test_.cells = cells_;
+    // A tick that throws is not compared any further.
+    if (!answer.empty()) test_.cells = cells_;
     test_.edges = edges_;
   }
 
