@@ -287,7 +287,23 @@ class Run {
   void set(const std::string& home, const std::string& entry,
            const Value& value) {
     const BT::TreeNode& node = *nodes_[number_of(home)];
-    node.config().blackboard->set(entry, value);
+    const auto& board = node.config().blackboard;
+    if constexpr (std::is_same<Value, int>::value) {
+      // An entry that a port has given another type of number.
+      try {
+        board->set(entry, value);
+        return;
+      } catch (const std::exception&) {
+      }
+      try {
+        board->set(entry, static_cast<double>(value));
+        return;
+      } catch (const std::exception&) {
+      }
+      board->set(entry, value != 0);
+    } else {
+      board->set(entry, value);
+    }
   }
 
   // One tick: "root=running Navigate=running FollowPath=running,halted".

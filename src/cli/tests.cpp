@@ -15,6 +15,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
+#include "suites/driven_entries.hpp"
 #include "suites/formats.hpp"
 
 namespace btcheck {
@@ -66,7 +67,8 @@ std::vector<std::string> program_of(const Options& options,
 std::vector<SuiteFile> files_of(const Options& options,
                                 const DescribedSuite& described,
                                 const BehaviorTree& tree, const Suite& suite,
-                                const TreeInput& input) {
+                                const TreeInput& input,
+                                const std::string& contracts) {
   const auto wants = [&](TestForm form) {
     return options.tests.forms.empty() || options.tests.forms.contains(form);
   };
@@ -75,8 +77,15 @@ std::vector<SuiteFile> files_of(const Options& options,
     files = googletest_files(described, tree, suite);
   }
   if (wants(TestForm::Pytest)) {
-    files.push_back(pytest_file(described, tree, suite,
-                                program_of(options, input, options.output)));
+    auto program = program_of(options, input, options.output);
+    if (!contracts.empty()) {
+      files.push_back({described.name + ".leaves",
+                       fmt::format("; {}: entries that the program around the "
+                                   "tree decides.\n{}",
+                                   kSuiteMark, contracts)});
+      program.insert(program.end(), {"--leaves", files.back().name});
+    }
+    files.push_back(pytest_file(described, tree, suite, program));
   }
   if (wants(TestForm::JsonLines)) {
     files.push_back(jsonl_file(described, tree, suite));
@@ -127,6 +136,24 @@ bool write_files(const Options& options, const std::vector<SuiteFile>& files) {
   return false;
 }
 
+// Half of the time and memory is for what comes after.
+class HalfOf final : public SearchMonitor {
+ public:
+  explicit HalfOf(SearchMonitor& whole) : whole_(whole) {}
+
+  StopReason observe(const SearchProgress& progress) override {
+    const StopReason reason = whole_.observe(progress);
+    return reason == StopReason::None && !whole_.has_spare()
+               ? StopReason::Timeout
+               : reason;
+  }
+  bool may_tell() override { return whole_.may_tell(); }
+  bool has_spare() override { return whole_.has_spare(); }
+
+ private:
+  SearchMonitor& whole_;
+};
+
 }  // namespace
 
 ExitCode run_tests(const Options& asked) {
@@ -136,6 +163,8 @@ ExitCode run_tests(const Options& asked) {
   const Options& options = inputs->options;
   Watch watch(options);
   CheckOptions how = check_options(options, watch.limits);
+  HalfOf half(watch.monitor);
+  how.limits.monitor = &half;
   how.tries_repairs = false;
   const CheckResult result = check(inputs->tree, {}, how);
   show(options, result.diagnostics);
@@ -149,13 +178,20 @@ ExitCode run_tests(const Options& asked) {
                               "name a file with one tree")});
     return ExitCode::BadInput;
   }
-  const CompiledNetwork system(*result.files.front().network);
-  const ForcedNetwork forced(tree, system);
+  const Network& network = *result.files.front().network;
+  const auto driven = driven_tree(inputs->tree, tree, network.ticks);
+  const TreeInput& input = driven ? driven->input : inputs->tree;
+  const BehaviorTree& forced_tree = driven ? driven->lowered.tree : tree;
+  const CompiledNetwork system(driven ? driven->lowered.network : network);
+  const ForcedNetwork forced(forced_tree, system);
+  const CompiledNetwork whole(network);
+  const ForcedNetwork reported(tree, whole);
   const DefaultReport& defaults = *result.files.front().defaults;
-  const Suite suite = make_suite(forced, defaults, {}, watch.limits);
+  const Suite suite = make_suite(forced, reported, defaults, {}, watch.limits);
   watch.monitor.clear();
-  const DescribedSuite described = described_suite(inputs->tree, tree);
-  const auto files = files_of(options, described, tree, suite, inputs->tree);
+  const DescribedSuite described = described_suite(input, forced_tree);
+  auto files = files_of(options, described, forced_tree, suite, input,
+                        driven ? driven->contracts : "");
   if (files.empty()) {
     show(options, {file_error("BT1816", inputs->tree.name,
                               "googletest is for trees of BehaviorTree.CPP",

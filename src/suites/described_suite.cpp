@@ -29,9 +29,14 @@ std::string_view text_of(const XmlElement& element, std::string_view text) {
   return text.substr(element.start_tag.begin, end - element.start_tag.begin);
 }
 
-// All trees of the files, and the models of SubTrees, which say what is passed
+// The trees that are used, and the models of SubTrees, which say what is passed
 // where nothing is written.
-std::string one_text(const BtcppDocument& document, const std::string& main) {
+std::string one_text(const BtcppDocument& document, const BehaviorTree& tree) {
+  const std::string& main = tree.node(tree.roots.front()).name;
+  std::set<std::string> used = {main};
+  for (const Node& node : tree.nodes) {
+    if (node.type == NodeType::SubTree) used.insert(node.id);
+  }
   std::string trees;
   std::string models;
   std::set<std::string> known;
@@ -46,7 +51,10 @@ std::string one_text(const BtcppDocument& document, const std::string& main) {
     };
     for (const std::size_t child : elements[0].children) {
       const XmlElement& element = elements[child];
-      if (element.name == "BehaviorTree") take(element, trees);
+      if (element.name == "BehaviorTree" &&
+          used.contains(element.value_or_empty("ID"))) {
+        take(element, trees);
+      }
       if (element.name != "TreeNodesModel") continue;
       for (const std::size_t model : element.children) {
         if (elements[model].name == "SubTree") take(elements[model], models);
@@ -115,7 +123,7 @@ DescribedSuite described_suite(const TreeInput& input,
   reading.profile = tree.profile;
   const auto document = read_tree_document(input.name, input.text, reading);
   if (!document.value) return suite;
-  suite.xml = one_text(*document.value, root.name);
+  suite.xml = one_text(*document.value, tree);
   std::map<std::string, SuiteLeaf> leaves;
   std::set<std::string> linked;
   std::set<std::string> unknown;

@@ -34,6 +34,9 @@ ForcedNetwork::Decides ForcedNetwork::decides(const Automaton& automaton,
     if (is_leaf && target.name.starts_with("halts_")) return Decides::Halting;
     return edge.label == "is idle then" ? Decides::IsIdle : Decides::World;
   }
+  if (node.repetitions == kOpenRounds && target.role == LocationRole::Call) {
+    return Decides::Rounds;
+  }
   if (!is_leaf || edge.label == "halts itself") return Decides::Tree;
   if (keeps_answer(edge)) {
     return node.contract.memory == LeafMemory::Latched ? Decides::Tree
@@ -83,7 +86,7 @@ void ForcedNetwork::keep_forced(StateView state,
                                 std::vector<std::uint32_t>& places) const {
   if (places.size() == 1) {
     const Decides by = decides_[system_.edge_number(places[0])];
-    if (by == Decides::LeafFault) places.clear();
+    if (by == Decides::LeafFault || by == Decides::Rounds) places.clear();
     return;
   }
   const auto keep = [&](auto&& is_kept) {
@@ -111,6 +114,7 @@ void ForcedNetwork::keep_forced(StateView state,
       });
     });
   }
+  if (has(Decides::World)) return places.clear();
   keep([](Decides by, std::uint32_t) { return by == Decides::Tree; });
   if (places.size() != 1) places.clear();
 }
@@ -157,6 +161,13 @@ bool ForcedNetwork::is_fault(StateView state) const {
   return network().fault && system_.value(state, *network().fault) != 0;
 }
 
+bool ForcedNetwork::is_about_entry(const Step& step) const {
+  if (step.edge == kTimeStep) return false;
+  const std::string& label = network().edge(step.edge).label;
+  return decides_[step.edge] == Decides::World &&
+         (label.starts_with('`') || label.starts_with("throws: `"));
+}
+
 std::string ForcedNetwork::reason(const Step& step) const {
   if (step.edge == kTimeStep) return "real time";
   const Automaton& automaton = network().automaton(owner_[step.edge]);
@@ -174,6 +185,8 @@ std::string ForcedNetwork::reason(const Step& step) const {
   switch (decides_[step.edge]) {
     case Decides::Keeps:
       return fmt::format("whether {} keeps its answer", node);
+    case Decides::Rounds:
+      return fmt::format("how many rounds {} takes", node);
     case Decides::LeafFault:
       return fmt::format("{} writes what is not declared", node);
     case Decides::Halting:

@@ -49,6 +49,8 @@ class ForcedNetwork {
     return decides(automaton, edge) == Decides::Leaf;
   }
 
+  // Whether a step hangs on what an entry holds.
+  bool is_about_entry(const Step& step) const;
   // Why nobody can force a step of the network: "real time: `Sleep`".
   std::string reason(const Step& step) const;
 
@@ -65,6 +67,7 @@ class ForcedNetwork {
     Halting,    // the same while it is halted
     Keeps,      // nobody knows whether this leaf keeps its answer
     IsIdle,     // a leaf that has been reset
+    Rounds,     // an entry that is not known has the number of rounds
     LeafFault,  // it writes what nobody has declared
     World       // something else
   };

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <unordered_map>
 
 #include "explore/search/reachability.hpp"
@@ -31,9 +32,21 @@ struct FirstSteps : ReachabilityVisitor {
   void stepped(StateId state, Step step, StateId) {
     if (step.edge == kTimeStep || from[step.edge]) return;
     from[step.edge] = state;
+    states_until += std::exchange(states_since, 0);
     order.push_back(step.edge);
   }
 
+  // Where nothing new has been found for long, and all that is known to be
+  // possible has, the rest is more of the same.
+  GoOn expanded(StateId, StateView, bool) {
+    ++states_since;
+    const std::size_t patience = 100'000 + 4 * states_until;
+    return states_since > patience && is_enough() ? GoOn::No : GoOn::Yes;
+  }
+
+  std::function<bool()> is_enough;
+  std::size_t states_until = 0;  // the last new edge
+  std::size_t states_since = 0;
   std::vector<std::optional<StateId>> from;  // by edge
   std::vector<std::uint32_t> order;          // as they were found
 };
@@ -95,9 +108,10 @@ bool go_on(
 
 class SuiteMaker {
  public:
-  SuiteMaker(const ForcedNetwork& forced, const DefaultReport& defaults,
-             const Limits& limits)
+  SuiteMaker(const ForcedNetwork& forced, const ForcedNetwork& asked,
+             const DefaultReport& defaults, const Limits& limits)
       : forced_(forced),
+        asked_(asked),
         network_(forced.network()),
         defaults_(defaults),
         limits_(limits),
@@ -133,11 +147,28 @@ class SuiteMaker {
            network_.owner_of_edge(step.edge).kind == AutomatonKind::Node;
   }
 
+  // All that is proven, as far as single steps show it.
+  bool reaches_all(const FirstSteps& first) const {
+    std::set<Cell> missing = suite_.proven;
+    for (const std::uint32_t edge : first.order) {
+      if (!is_of_node({edge})) continue;
+      const Automaton& automaton = network_.owner_of_edge(edge);
+      const LocationRole role = automaton.target(network_.edge(edge)).role;
+      for (std::size_t q = 1; q < kNodeQuestionCount; ++q) {
+        if (kNodeQuestionRoles[q] != role) continue;
+        missing.erase({automaton.node, static_cast<NodeQuestion>(q)});
+      }
+    }
+    return missing.empty();
+  }
+
   void cover() {
     BreadthFirst<ForcedNetwork> search(forced_, limits_);
     FirstSteps first(network_.edge_count());
+    first.is_enough = [&] { return reaches_all(first); };
     const ReachabilityResult result = search.run(first);
-    suite_.is_complete = result.is_complete;
+    suite_.is_complete =
+        result.is_complete || result.stopped == StopReason::None;
     std::vector<std::uint32_t> goals;
     for (const std::uint32_t edge : first.order) {
       if (is_of_node({edge})) goals.push_back(edge);
@@ -251,28 +282,46 @@ class SuiteMaker {
     }
   }
 
-  // The first step of the witness that nobody can force.
+  // The first step of the witness that nobody can force; one that hangs on the
+  // value of an entry only where there is no other.
   std::string reason_of(const Cell& cell) const {
     const auto report =
         std::ranges::find(defaults_.nodes, cell.first, &NodeReport::node);
+    if (report == defaults_.nodes.end()) return "not within the limits";
     const auto& run =
         report->answers[static_cast<std::size_t>(cell.second)].run;
     if (!run) return "not within the limits";
     StateVector state;
-    forced_.initial_states([&](StateView initial) {
+    asked_.initial_states([&](StateView initial) {
       state.assign(initial.begin(), initial.end());
     });
+    std::string reason;
     for (const Step& step : run->steps()) {
-      const auto ways = forced_.ways(view_of(state));
-      const auto way = std::ranges::find(ways, step, &ForcedNetwork::Way::step);
-      if (way == ways.end()) return forced_.reason(step);
-      state = way->after;
+      const auto ways = asked_.ways(view_of(state));
+      const bool is_forced =
+          std::ranges::find(ways, step, &ForcedNetwork::Way::step) !=
+          ways.end();
+      if (!is_forced) {
+        if (!asked_.is_about_entry(step)) return asked_.reason(step);
+        if (reason.empty()) reason = asked_.reason(step);
+      }
+      std::optional<StateVector> next;
+      asked_.system().successors(view_of(state),
+                                 [&](StateView target, const Step& taken) {
+                                   if (taken == step)
+                                     next.emplace(target.begin(), target.end());
+                                 });
+      if (!next) break;
+      state = std::move(*next);
     }
-    return suite_.is_complete ? "that tick throws, or what follows in it is not known"
-                              : "not within the limits";
+    if (!reason.empty()) return reason;
+    return suite_.is_complete
+               ? "that tick throws, or what follows in it is not known"
+               : "not within the limits";
   }
 
   const ForcedNetwork& forced_;
+  const ForcedNetwork& asked_;  // the network of the default report
   const Network& network_;
   const DefaultReport& defaults_;
   const Limits& limits_;
@@ -282,9 +331,10 @@ class SuiteMaker {
 
 }  // namespace
 
-Suite make_suite(const ForcedNetwork& forced, const DefaultReport& defaults,
+Suite make_suite(const ForcedNetwork& forced, const ForcedNetwork& asked,
+                 const DefaultReport& defaults,
                  const std::vector<NamedRun>& also, const Limits& limits) {
-  return SuiteMaker(forced, defaults, limits).make(also);
+  return SuiteMaker(forced, asked, defaults, limits).make(also);
 }
 
 std::string suite_summary(const Suite& suite, const BehaviorTree& tree) {

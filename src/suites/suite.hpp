@@ -83,8 +83,10 @@ struct NamedRun {
 };
 
 // Searches twice: for what can be forced, and for short runs that do all of it.
-// `defaults` is what the exhaustive search of the same network has said.
-Suite make_suite(const ForcedNetwork& forced, const DefaultReport& defaults,
+// `defaults` is what the exhaustive search of the same tree has said, in the
+// network of `asked`, where entries may be declared less closely.
+Suite make_suite(const ForcedNetwork& forced, const ForcedNetwork& asked,
+                 const DefaultReport& defaults,
                  const std::vector<NamedRun>& also, const Limits& limits);
 
 // What the program puts into entries before the first tick, as it is declared.

@@ -193,7 +193,8 @@ std::vector<EntryWrite> initial_writes(const BehaviorTree& tree) {
   std::vector<EntryWrite> writes;
   if (!tree.programs) return writes;
   for (const btcpp::ProgramEntry& entry : tree.programs->entries) {
-    if (!entry.exists || !is_known(entry.initial)) continue;
+    // Those of subtrees are made by the engine.
+    if (entry.subtree != 0 || !is_known(entry.initial)) continue;
     if (auto write = write_of(tree, entry, entry.initial)) {
       writes.push_back(std::move(*write));
     }

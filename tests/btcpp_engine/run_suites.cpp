@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+//
+// Runs suites of `btcheck tests --to jsonl` in BehaviorTree.CPP, 4 or 3.8: what
+// the generated files of GoogleTest do, compiled once for all of them.
+//   run_suites [-v] SUITE.tests.jsonl...
+// Writes a line for each: how many tests pass, and how many of the answers and
+// halts that are proven possible the engine itself has reached. With -v, what
+// each test that fails expected and found. Exit code 1 where one fails.
+#if defined(SUITE_RELEASE_3)
+#define BTCHECK_SUITE_RELEASE 3
+#endif
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "btcheck/scripted_suite.hpp"
+#include "nav2_nodes.hpp"
+
+namespace {
+
+using btcheck::suite::Cell;
+using btcheck::suite::Run;
+using btcheck::suite::Tree;
+using nlohmann::json;
+
+struct Outcome {
+  int tests = 0;
+  int failed = 0;
+  std::size_t reached = 0;
+  std::size_t proven = 0;
+  std::size_t reachable = 0;
+};
+
+Tree tree_of(const json& line) {
+  Tree tree;
+  tree.xml = line["xml"];
+  for (const json& leaf : line["leaves"]) {
+    tree.leaves.push_back({leaf["id"], leaf["is_condition"], {}});
+    for (const json& port : leaf["ports"]) {
+      tree.leaves.back().ports.push_back(
+          {port["name"], std::string(port["direction"])[0], port["type"]});
+    }
+  }
+  for (const json& node : line["nodes"]) {
+    tree.nodes.push_back({node["key"], node["type"], node["keeps"]});
+  }
+  return tree;
+}
+
+// Calls written(value) with the type that the value has.
+template <class Written>
+void with_value(const json& value, Written written) {
+  if (value.is_string()) {
+    written(value.get<std::string>());
+  } else if (value.is_number_integer()) {
+    written(value.get<int>());
+  } else {
+    written(value.get<double>());
+  }
+}
+
+void set_all(Run& run, const json& writes) {
+  for (const json& write : writes) {
+    with_value(write["value"], [&](const auto& value) {
+      run.set(write["home"], write["entry"], value);
+    });
+  }
+}
+
+std::string expected(const json& tick) {
+  if (tick["root"] == "throws") return "throws";
+  std::string text = "root=" + tick["root"].get<std::string>();
+  for (const json& node : tick["nodes"]) {
+    text += " " + node["node"].get<std::string>() + "=" +
+            node["answers"].get<std::string>();
+  }
+  return text;
+}
+
+// "" where all is as it should be.
+std::string fault_of(const Tree& tree, const json& initial, const json& test) {
+  Run run(tree);
+  set_all(run, initial);
+  for (const json& leaf : test["leaves"]) {
+    const std::string key = leaf["leaf"];
+    std::size_t number = 0;
+    for (const json& answer : leaf["answers"]) {
+      run.leaf(key, answer["answer"]);
+      ++number;
+      for (const json& write : answer["writes"]) {
+        with_value(write["value"], [&](const auto& value) {
+          run.writes(key, number, write["home"], write["entry"], value);
+        });
+      }
+    }
+  }
+  int number = 0;
+  for (const json& tick : test["ticks"]) {
+    ++number;
+    set_all(run, tick["before"]);
+    const std::string told = run.tick();
+    const std::string wanted = expected(tick);
+    if (told == wanted) continue;
+    return "tick " + std::to_string(number) + "\n    expected " + wanted +
+           "\n    found    " + told + "  " + run.why();
+  }
+  return "";
+}
+
+Outcome outcome_of(const std::string& file, bool is_verbose) {
+  std::ifstream in(file);
+  std::string text;
+  if (!std::getline(in, text)) throw std::runtime_error("cannot read " + file);
+  const json suite = json::parse(text);
+  const Tree tree = tree_of(suite);
+  Outcome outcome;
+  outcome.proven = suite["proven"];
+  btcheck::suite::reached().clear();
+  while (std::getline(in, text)) {
+    const json test = json::parse(text);
+    ++outcome.tests;
+    std::string fault;
+    try {
+      fault = fault_of(tree, suite["initial"], test);
+    } catch (const std::exception& refusal) {
+      fault = std::string("the engine refuses: ") + refusal.what();
+    }
+    if (fault.empty()) continue;
+    ++outcome.failed;
+    if (is_verbose) {
+      std::cout << file << ": " << test["name"].get<std::string>() << ": "
+                << fault << '\n';
+    }
+  }
+  std::map<std::string, std::size_t> numbers;
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+    numbers[tree.nodes[i].key] = i;
+  }
+  for (const json& cell : suite["reached"]) {
+    ++outcome.reachable;
+    outcome.reached += btcheck::suite::reached().count(
+        Cell{numbers.at(cell["node"]), cell["answer"]});
+  }
+  return outcome;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  btcheck::suite::more_nodes() = register_nav2_nodes;
+  bool is_verbose = false;
+  bool is_failed = false;
+  Outcome all;
+  int suites = 0;
+  for (int i = 1; i < count; ++i) {
+    const std::string word = words[i];
+    if (word == "-v") {
+      is_verbose = true;
+      continue;
+    }
+    const Outcome one = outcome_of(word, is_verbose);
+    std::cout << word << ": " << one.tests - one.failed << " of " << one.tests
+              << " tests pass, " << one.reached << " of " << one.reachable
+              << " reached on the engine, " << one.proven << " proven\n"
+              << std::flush;
+    ++suites;
+    all.tests += one.tests;
+    all.failed += one.failed;
+    all.reached += one.reached;
+    all.reachable += one.reachable;
+    all.proven += one.proven;
+    is_failed = is_failed || one.failed > 0;
+  }
+  std::cout << suites << " suites, " << all.tests << " tests, " << all.failed
+            << " fail; " << all.reached << " of " << all.reachable
+            << " answers and halts reached on the engine, " << all.proven
+            << " proven\n";
+  return is_failed ? 1 : 0;
+}
