@@ -212,9 +212,9 @@ struct Ticks<Tree_,
 };
 
 // One test: first what the leaves do, then tick by tick.
-class Run {
+class ScriptedRun {
  public:
-  explicit Run(const Tree& described) : described_(described) {
+  explicit ScriptedRun(const Tree& described) : described_(described) {
     if (more_nodes()) more_nodes()(factory_);
     for (const Leaf& leaf : described.leaves) {
       if (factory_.manifests().count(leaf.id) != 0) continue;
@@ -241,7 +241,7 @@ class Run {
     }
   }
   // What throws while it is halted has been told before.
-  ~Run() {
+  ~ScriptedRun() {
     subscribers_.clear();
     for (BT::TreeNode* node : nodes_) silence(*node);
     try {
@@ -250,8 +250,8 @@ class Run {
       static_cast<void>(tree_.release());
     }
   }
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
+  ScriptedRun(const ScriptedRun&) = delete;
+  ScriptedRun& operator=(const ScriptedRun&) = delete;
 
   // What a leaf answers, each time it is asked: "running*2 success".
   void leaf(const std::string& key, const std::string& answers) {

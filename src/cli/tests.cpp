@@ -60,7 +60,6 @@ std::vector<std::string> program_of(const Options& options,
   if (options.tick_ms != 100)
     add("--tick-ms", fmt::format("{}", options.tick_ms));
   if (options.loops) words.emplace_back("--loop");
-  if (options.wakes) words.emplace_back("--wake-ups");
   return words;
 }
 
@@ -158,8 +157,10 @@ class HalfOf final : public SearchMonitor {
 
 ExitCode run_tests(const Options& asked) {
   std::vector<Diagnostic> found;
-  const auto inputs = read_inputs(asked, found);
+  auto inputs = read_inputs(asked, found);
   if (!inputs) return ExitCode::BadInput;
+  // Tests tick by tickExactlyOnce, whatever the program does.
+  inputs->tree.reading.wakes = false;
   const Options& options = inputs->options;
   Watch watch(options);
   CheckOptions how = check_options(options, watch.limits);
@@ -173,9 +174,8 @@ ExitCode run_tests(const Options& asked) {
   }
   const BehaviorTree& tree = *result.tree;
   if (tree.roots.size() != 1) {
-    show(options, {file_error("BT1815", inputs->tree.name,
-                              "tests of several trees at once are not written",
-                              "name a file with one tree")});
+    complain("BT0001",
+             "tests: several trees at once have none; name a file with one");
     return ExitCode::BadInput;
   }
   const Network& network = *result.files.front().network;
@@ -193,9 +193,9 @@ ExitCode run_tests(const Options& asked) {
   auto files = files_of(options, described, forced_tree, suite, input,
                         driven ? driven->contracts : "");
   if (files.empty()) {
-    show(options, {file_error("BT1816", inputs->tree.name,
-                              "googletest is for trees of BehaviorTree.CPP",
-                              "--to pytest and --to jsonl are for all trees")});
+    complain("BT0001",
+             "tests: googletest is for trees of BehaviorTree.CPP; --to pytest "
+             "and --to jsonl are for all");
     return ExitCode::BadInput;
   }
   if (!write_files(options, files)) return ExitCode::BadInput;

@@ -122,7 +122,7 @@ class Writer {
            "#ifdef BTCHECK_SUITE_NODES\n#include BTCHECK_SUITE_NODES\n"
            "#endif\n\n"
            "// clang-format off\nnamespace {\n\n"
-           "using btcheck::suite::Cell;\nusing btcheck::suite::Run;\n";
+           "using btcheck::suite::Cell;\nusing btcheck::suite::ScriptedRun;\n";
   }
 
   std::string tree_text() const {
@@ -215,7 +215,7 @@ class Writer {
   std::string test_text(const SuiteTest& test) const {
     std::string text = fmt::format(
         "\n// {}{}\nTEST({}, {}) {{\n"
-        "  Run run(kTree);\n",
+        "  ScriptedRun run(kTree);\n",
         unbroken(test.about), test.code.empty() ? "" : ": " + test.code,
         described_.name, test.name);
     for (const EntryWrite& write : suite_.initial) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 #include <set>
 #include <string>
 
@@ -43,6 +44,7 @@ class Namer {
     }
     for (SuiteTest& test : tests) {
       if (test.about.empty()) test.about = subject_of(test);
+      if (taken_.contains(identifier(test.about))) test.about += end_of(test);
       test.name = unique(identifier(test.about));
     }
   }
@@ -94,6 +96,21 @@ class Namer {
       return t == 0 || cause.empty()
                  ? cause
                  : fmt::format("{} in tick {}", cause, t + 1);
+    }
+    return {};
+  }
+
+  // How it ends: what the last leaf of the last tick answered.
+  std::string end_of(const SuiteTest& test) const {
+    if (test.ticks.empty()) return {};
+    for (const auto& [node, answers] :
+         std::views::reverse(test.ticks.back().nodes)) {
+      if (!is_scripted(tree_.node(node).type)) continue;
+      const std::string last = answers.substr(answers.rfind(',') + 1);
+      const auto verb = std::ranges::find(kVerbs, last, &Verb::word);
+      if (verb == std::end(kVerbs)) continue;
+      return fmt::format(", {} {} in tick {}", names_[index(node)],
+                         verb->before, test.ticks.size());
     }
     return {};
   }

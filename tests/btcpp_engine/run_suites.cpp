@@ -21,7 +21,7 @@
 namespace {
 
 using btcheck::suite::Cell;
-using btcheck::suite::Run;
+using btcheck::suite::ScriptedRun;
 using btcheck::suite::Tree;
 using nlohmann::json;
 
@@ -61,7 +61,7 @@ void with_value(const json& value, Written written) {
   }
 }
 
-void set_all(Run& run, const json& writes) {
+void set_all(ScriptedRun& run, const json& writes) {
   for (const json& write : writes) {
     with_value(write["value"], [&](const auto& value) {
       run.set(write["home"], write["entry"], value);
@@ -81,7 +81,7 @@ std::string expected(const json& tick) {
 
 // "" where all is as it should be.
 std::string fault_of(const Tree& tree, const json& initial, const json& test) {
-  Run run(tree);
+  ScriptedRun run(tree);
   set_all(run, initial);
   for (const json& leaf : test["leaves"]) {
     const std::string key = leaf["leaf"];

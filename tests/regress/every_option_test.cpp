@@ -124,6 +124,7 @@ void fill(const fs::path& folder, const Language& language) {
         "tick-ms = 60\n[levels]\nBT1620 = \"warning\"\nBT1007 = \"note\"\n");
   write(folder / "events.jsonl", "{\"topic\": \"/odom\", \"time\": 1}\n");
   write(folder / "answers.txt", "1\n1\n1\n");
+  write(folder / "t.tests.jsonl", "somebody else's\n");
   const std::string tree = "trees/" + language.tree;
   for (const std::string_view method : {"init", "describe"}) {
     const std::string asked = fmt::format(
@@ -200,6 +201,7 @@ const std::map<std::string_view, std::string> kValues = {
     {"--fail-fast", "--fail-fast"},
     {"--resume", "--resume"},
     {"--results", "--results new"},
+    {"--force", "--force"},
     {"--no-wait", "--no-wait"},
     {"--lease", "--lease 7"},
     {"--join", "--join elsewhere"},
@@ -251,6 +253,7 @@ constexpr Without kWithout[] = {
     {"serve mcp lsp", "-q -v --color", "", "programs read what it prints"},
     {"lsp", "--stdio", "", "there is no other way"},
     {"conform", "-q", "", "it prints what it has found and nothing else"},
+    {"tests", "--tick-ms", "t.xml", "what takes time is left out"},
     {"fmt", "--config --no-config", "", "they leave nothing out here"},
     {"fmt", "--verify", "", "the networks are equal"},
     {"fmt", "--timeout", "", "it is done before a limit is looked at"},
@@ -308,6 +311,8 @@ std::vector<std::string> lines_of(const CommandRow& row,
     case Command::Monitor:
       return {line + " <events.jsonl",
               line + " --prop trees/t.ltl " + "<events.jsonl"};
+    case Command::Tests:
+      return {line + " -o suites", line + " -o . --to jsonl"};
     case Command::Conform:
       return {"conform run.btlog trees/" + language.tree,
               "conform run.btlog --coverage trees/" + language.tree};

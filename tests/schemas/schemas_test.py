@@ -131,6 +131,16 @@ def look_at_monitors():
         lines("monitor-answer", answers, folder.name)
 
 
+def look_at_tests(out):
+    """Suites of trees with entries, with time, and without either."""
+    suites = out / "suites"
+    for tree in ("world/patrol.xml", "nav2/jazzy/navigate_w_replanning_time.xml",
+                 "observer/mission.xml", "drone3.btf"):
+        btcheck(sources / "examples", "tests", tree, "-q", "-o", suites, "--to", "jsonl")
+    for file in sorted(suites.glob("*.jsonl")):
+        lines("tests", file.read_text(), file.name)
+
+
 def look_at_library():
     """What btcheck/check.h tells and the program does not."""
     door = ctypes.CDLL(library)
@@ -237,6 +247,7 @@ with tempfile.TemporaryDirectory() as name:
     out = Path(name)
     look_at_leaves(out)
     look_at_monitors()
+    look_at_tests(out)
     look_at_included(out)
     look_at_library()
     look_at_batches(out)
