@@ -187,9 +187,10 @@ ExitCode run_tests(const Options& asked) {
   const CompiledNetwork whole(network);
   const ForcedNetwork reported(tree, whole);
   const DefaultReport& defaults = *result.files.front().defaults;
-  const Suite suite = make_suite(forced, reported, defaults, {}, watch.limits);
+  Suite suite = make_suite(forced, reported, defaults, {}, watch.limits);
   watch.monitor.clear();
   const DescribedSuite described = described_suite(input, forced_tree);
+  note_scripts(described, forced_tree, system.network(), suite);
   auto files = files_of(options, described, forced_tree, suite, input,
                         driven ? driven->contracts : "");
   if (files.empty()) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/automata/network.hpp"
 #include "model/tree/tree.hpp"
 #include "suites/described_suite.hpp"
 #include "suites/suite.hpp"
@@ -44,9 +45,15 @@ std::string tick_text(const DescribedSuite& described, const SuiteTick& tick);
 // The script of a test, as `btcheck simulate --script` reads it.
 std::string script_text(const DescribedSuite& described,
                         const BehaviorTree& tree, const SuiteTest& test);
-// Whether such a script can say all that the test does: not what a leaf writes
-// by a port.
-bool has_script(const BehaviorTree& tree, const SuiteTest& test);
+// The ticks of such a script, as tick_text has them; where it asks for what the
+// tree cannot do, that message is the last.
+std::vector<std::string> played_script(const BehaviorTree& tree,
+                                       const Network& network,
+                                       const std::string& script, int ticks);
+// Finds out which tests a script can play: not all of what a leaf writes by a
+// port can be said in one.
+void note_scripts(const DescribedSuite& described, const BehaviorTree& tree,
+                  const Network& network, Suite& suite);
 
 // "running*2 success", of answers in a row.
 std::string answers_text(const std::vector<LeafAnswer>& answers);

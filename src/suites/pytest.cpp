@@ -94,7 +94,7 @@ SuiteFile pytest_file(const DescribedSuite& described, const BehaviorTree& tree,
     text += fmt::format("    # {}{}\n    {}: (\n", unbroken(test.about),
                         test.code.empty() ? "" : ": " + test.code,
                         python(test.name));
-    if (has_script(tree, test)) {
+    if (test.has_script) {
       const std::string script = script_text(described, tree, test);
       for (std::size_t begin = 0; begin < script.size();) {
         const std::size_t end = script.find('\n', begin) + 1;

@@ -63,14 +63,14 @@ struct WordsHash {
 };
 
 // A run on its way.
-struct Course {
+struct PlannedRun {
   std::vector<Step> steps;
   StateVector state;
 };
 
 // Goes on by the fewest steps to one that is wanted; false where none is near.
 bool go_on(
-    const ForcedNetwork& forced, Course& course, std::size_t most,
+    const ForcedNetwork& forced, PlannedRun& run, std::size_t most,
     const std::function<bool(const Step&)>& is_wanted,
     const std::function<bool(const Step&)>& is_passed = [](const Step&) {
       return true;
@@ -86,7 +86,7 @@ bool go_on(
     const auto [at, is_new] = known.emplace(std::move(state), reached.size());
     if (is_new) reached.push_back({&at->first, from, step});
   };
-  add(course.state, 0, {});
+  add(run.state, 0, {});
   for (std::size_t i = 0; i < reached.size() && i < most; ++i) {
     for (const ForcedNetwork::Way& way :
          forced.ways(view_of(*reached[i].state))) {
@@ -98,8 +98,8 @@ bool go_on(
       for (std::size_t at = i; at != 0; at = reached[at].from) {
         steps.push_back(reached[at].step);
       }
-      course.steps.insert(course.steps.end(), steps.rbegin(), steps.rend());
-      course.state = way.after;
+      run.steps.insert(run.steps.end(), steps.rbegin(), steps.rend());
+      run.state = way.after;
       return true;
     }
   }
@@ -178,28 +178,27 @@ class SuiteMaker {
     for (const std::uint32_t goal : goals) {
       if (is_covered_[goal]) continue;
       ask_budget();
-      Course course;
+      PlannedRun run;
       for (const RunState& each : search.path_to(*first.from[goal])) {
-        course.steps.push_back(each.step);
-        course.state = each.state;
+        run.steps.push_back(each.step);
+        run.state = each.state;
       }
-      course.steps.erase(course.steps.begin());
-      if (!go_on(forced_, course, 1,
+      run.steps.erase(run.steps.begin());
+      if (!go_on(forced_, run, 1,
                  [&](const Step& step) { return step.edge == goal; })) {
         continue;
       }
-      lengthen(course);
-      if (auto test = told_test(forced_, course.steps)) add(std::move(*test));
+      lengthen(run);
+      if (auto test = told_test(forced_, run.steps)) add(std::move(*test));
     }
   }
 
   // On to what is not covered yet, and to the end of the tick.
-  void lengthen(Course& course) const {
+  void lengthen(PlannedRun& run) const {
     std::vector<bool> is_covered = is_covered_;
     const auto note = [&](std::size_t from) {
-      for (std::size_t i = from; i < course.steps.size(); ++i) {
-        if (is_of_node(course.steps[i]))
-          is_covered[course.steps[i].edge] = true;
+      for (std::size_t i = from; i < run.steps.size(); ++i) {
+        if (is_of_node(run.steps[i])) is_covered[run.steps[i].edge] = true;
       }
     };
     const auto ends = [&](const Step& step) {
@@ -207,27 +206,27 @@ class SuiteMaker {
     };
     note(0);
     for (;;) {
-      const Course kept = course;
-      const bool is_open = !ends(course.steps.back());
+      const PlannedRun kept = run;
+      const bool is_open = !ends(run.steps.back());
       // Within a tick first to its end, by what is new if there is any.
-      bool is_found = go_on(forced_, course, kNear, [&](const Step& step) {
+      bool is_found = go_on(forced_, run, kNear, [&](const Step& step) {
         return is_of_node(step) && !is_covered[step.edge];
       });
       if (is_found) {
-        const auto ticks = std::ranges::count_if(course.steps, ends);
-        Course whole = course;
+        const auto ticks = std::ranges::count_if(run.steps, ends);
+        PlannedRun whole = run;
         const bool is_whole = ends(whole.steps.back()) ||
                               forced_.is_fault(view_of(whole.state)) ||
                               go_on(forced_, whole, kWithinTick, ends);
         is_found = is_whole && ticks < kMostTicks;
-        if (!is_found) course = kept;
+        if (!is_found) run = kept;
       }
       if (is_found) {
         note(kept.steps.size());
         continue;
       }
-      if (is_open && !forced_.is_fault(view_of(course.state))) {
-        go_on(forced_, course, kWithinTick, ends);
+      if (is_open && !forced_.is_fault(view_of(run.state))) {
+        go_on(forced_, run, kWithinTick, ends);
       }
       return;
     }

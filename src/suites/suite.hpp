@@ -54,6 +54,7 @@ struct SuiteTest {
   std::map<NodeId, std::vector<LeafAnswer>> leaves;
   std::vector<SuiteTick> ticks;
   std::set<Cell> cells;           // that it reaches
+  bool has_script = false;        // `simulate --script` can play it
   std::set<std::uint32_t> edges;  // of the nodes' automata
 };
 

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 #include <vector>
 
+#include "check/simulate/course.hpp"
 #include "suites/formats.hpp"
 #include "text/json.hpp"
+#include "trace/formats/text.hpp"
 
 namespace btcheck {
 
@@ -61,10 +64,50 @@ std::string script_text(const DescribedSuite& described,
   return text;
 }
 
-bool has_script(const BehaviorTree& tree, const SuiteTest& test) {
-  return std::ranges::all_of(test.leaves, [&](const auto& each) {
-    return tree.node(each.first).contract.measures.empty();
-  });
+std::vector<std::string> played_script(const BehaviorTree& tree,
+                                       const Network& network,
+                                       const std::string& script, int ticks) {
+  std::vector<std::string> all;
+  TickLines lines(tree, network);
+  const auto take = [&](const std::string& line) {
+    std::istringstream words(line.substr(line.find(": ") + 2));
+    std::string text;
+    for (std::string word; words >> word;) {
+      const std::string name = word.substr(0, word.find('='));
+      if (std::ranges::count(tree.variables, name, &StateVariable::name) > 0) {
+        continue;
+      }
+      text += (text.empty() ? "" : " ") + word;
+    }
+    all.push_back(text.starts_with("root=none") ? "throws" : text);
+  };
+  Course course;
+  course.ticks = ticks;
+  course.told = [&](const Valuation&, const RunStep& step) {
+    const std::string line = lines.take(step);
+    if (!line.empty()) take(line);
+  };
+  const SourceText source("script", script);
+  const auto run = simulated_by_script(tree, network, source, course);
+  if (run.value) {
+    const std::string rest = lines.rest(run.value->state());
+    if (!rest.empty()) take(rest.substr(0, rest.find('\n')));
+  }
+  if (has_error(run.diagnostics)) all.push_back(run.diagnostics[0].message);
+  return all;
+}
+
+void note_scripts(const DescribedSuite& described, const BehaviorTree& tree,
+                  const Network& network, Suite& suite) {
+  for (SuiteTest& test : suite.tests) {
+    std::vector<std::string> expected;
+    for (const SuiteTick& tick : test.ticks) {
+      expected.push_back(tick_text(described, tick));
+    }
+    test.has_script =
+        played_script(tree, network, script_text(described, tree, test),
+                      static_cast<int>(expected.size())) == expected;
+  }
 }
 
 namespace {

@@ -10,10 +10,12 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "explore/state/split_mix.hpp"
+#include "model/tree/node_types.hpp"
 #include "suites/made_suite.hpp"
 
 namespace mutants_test {
@@ -193,8 +195,8 @@ bool are_told_apart(const MadeSuite& right, const LoweredInput& wrong,
                     SplitMix64& random) {
   for (int i = 0; i < kScripts; ++i) {
     const std::string script = random_script(right.tree(), random);
-    if (sorted(played(right.tree(), right.network(), script, kTicks)) !=
-        sorted(played(wrong.tree, wrong.network, script, kTicks))) {
+    if (sorted(played_script(right.tree(), right.network(), script, kTicks)) !=
+        sorted(played_script(wrong.tree, wrong.network, script, kTicks))) {
       return true;
     }
   }
@@ -204,8 +206,8 @@ bool are_told_apart(const MadeSuite& right, const LoweredInput& wrong,
 bool is_killed(const MadeSuite& right, const LoweredInput& wrong) {
   return std::ranges::any_of(right.suite.tests, [&](const SuiteTest& test) {
     const std::string script = script_text(right.described, right.tree(), test);
-    return sorted(played(wrong.tree, wrong.network, script,
-                         static_cast<int>(test.ticks.size()))) !=
+    return sorted(played_script(wrong.tree, wrong.network, script,
+                                static_cast<int>(test.ticks.size()))) !=
            sorted(expected(right, test));
   });
 }
