@@ -49,6 +49,11 @@ class ForcedNetwork {
     return decides(automaton, edge) == Decides::Leaf;
   }
 
+  // Whether a step is what a leaf writes into an entry, by a port.
+  bool is_write(const Step& step) const {
+    const Decides by = decides_[step.edge];
+    return by == Decides::Writes || by == Decides::Halting;
+  }
   // Whether a step hangs on what an entry holds.
   bool is_about_entry(const Step& step) const;
   // Why nobody can force a step of the network: "real time: `Sleep`".

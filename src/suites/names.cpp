@@ -25,8 +25,8 @@ struct Verb {
 constexpr Verb kVerbs[] = {{"success", "succeeds", "succeeded"},
                            {"failure", "fails", "failed"},
                            {"running", "runs", "ran"},
-                           {"halted", "is_halted", "was_halted"},
-                           {"skipped", "is_skipped", "was_skipped"}};
+                           {"halted", "is halted", "was halted"},
+                           {"skipped", "is skipped", "was skipped"}};
 
 const Verb& verb_of(std::string_view word) {
   return *std::ranges::find(kVerbs, word, &Verb::word);

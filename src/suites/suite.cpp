@@ -171,7 +171,9 @@ class SuiteMaker {
         result.is_complete || result.stopped == StopReason::None;
     std::vector<std::uint32_t> goals;
     for (const std::uint32_t edge : first.order) {
-      if (is_of_node({edge})) goals.push_back(edge);
+      if (is_of_node({edge}) && !forced_.is_write({edge})) {
+        goals.push_back(edge);
+      }
     }
     suite_.forced_edges = goals.size();
     std::reverse(goals.begin(), goals.end());
@@ -210,7 +212,8 @@ class SuiteMaker {
       const bool is_open = !ends(run.steps.back());
       // Within a tick first to its end, by what is new if there is any.
       bool is_found = go_on(forced_, run, kNear, [&](const Step& step) {
-        return is_of_node(step) && !is_covered[step.edge];
+        return is_of_node(step) && !is_covered[step.edge] &&
+               !forced_.is_write(step);
       });
       if (is_found) {
         const auto ticks = std::ranges::count_if(run.steps, ends);
@@ -238,7 +241,7 @@ class SuiteMaker {
   }
 
   // Of those that are found: what is asked for stays.
-  static void drop_idle_tests(std::vector<SuiteTest>& tests) {
+  void drop_idle_tests(std::vector<SuiteTest>& tests) const {
     std::map<std::uint32_t, int> counts;
     for (const SuiteTest& test : tests) {
       for (const std::uint32_t edge : test.edges) ++counts[edge];
@@ -252,7 +255,7 @@ class SuiteMaker {
       const bool is_idle =
           tests[i].about.empty() &&
           std::ranges::all_of(tests[i].edges, [&](std::uint32_t edge) {
-            return counts[edge] > 1;
+            return counts[edge] > 1 || forced_.is_write({edge});
           });
       if (!is_idle) continue;
       dropped.insert(i);
@@ -268,7 +271,9 @@ class SuiteMaker {
   void count() {
     std::set<std::uint32_t> edges;
     for (const SuiteTest& test : suite_.tests) {
-      edges.insert(test.edges.begin(), test.edges.end());
+      for (const std::uint32_t edge : test.edges) {
+        if (!forced_.is_write({edge})) edges.insert(edge);
+      }
       for (const Cell& cell : test.cells) {
         suite_.reached.insert(cell);
         suite_.proven.insert(cell);

@@ -3,12 +3,14 @@
 // Runs suites of `btcheck tests --to jsonl` in BehaviorTree.CPP, 4 or 3.8: what
 // the generated files of GoogleTest do, compiled once for all of them.
 //   run_suites [-v] SUITE.tests.jsonl...
-// Writes a line for each: how many tests pass, and how many of the answers and
-// halts that are proven possible the engine itself has reached. With -v, what
-// each test that fails expected and found. Exit code 1 where one fails.
+// Writes a line for each: of how many bytes it is, how many tests pass, and how
+// many of the answers and halts that the suite reaches the engine has reached.
+// With -v, what each test that fails expected and found. Exit code 1 where one
+// fails.
 #if defined(SUITE_RELEASE_3)
 #define BTCHECK_SUITE_RELEASE 3
 #endif
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -161,7 +163,8 @@ int main(int count, char** words) {
       continue;
     }
     const Outcome one = outcome_of(word, is_verbose);
-    std::cout << word << ": " << one.tests - one.failed << " of " << one.tests
+    std::cout << word << " (" << std::filesystem::file_size(word)
+              << " bytes): " << one.tests - one.failed << " of " << one.tests
               << " tests pass, " << one.reached << " of " << one.reachable
               << " reached on the engine, " << one.proven << " proven\n"
               << std::flush;
