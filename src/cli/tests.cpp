@@ -15,7 +15,9 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
+#include "report/text/report.hpp"
 #include "suites/driven_entries.hpp"
+#include "suites/fault_runs.hpp"
 #include "suites/formats.hpp"
 
 namespace btcheck {
@@ -155,6 +157,25 @@ class HalfOf final : public SearchMonitor {
 
 }  // namespace
 
+namespace {
+
+// What single faults do, as far as half of what is left is enough for it.
+FaultRuns runs_of_faults(const TreeInput& tree, const ForcedNetwork& forced,
+                         Watch& watch) {
+  const auto input = what_if_input(tree, {});
+  if (!input.value) return {};
+  HalfOf half(watch.monitor);
+  WhatIfOptions how;
+  how.ticks = forced.network().ticks;
+  how.limits = watch.limits;
+  how.limits.monitor = &half;
+  const auto result = what_if(*input.value, how);
+  if (!result.value) return {};
+  return fault_runs(forced, *input.value, *result.value, how.ticks);
+}
+
+}  // namespace
+
 ExitCode run_tests(const Options& asked) {
   std::vector<Diagnostic> found;
   auto inputs = read_inputs(asked, found);
@@ -187,7 +208,9 @@ ExitCode run_tests(const Options& asked) {
   const CompiledNetwork whole(network);
   const ForcedNetwork reported(tree, whole);
   const DefaultReport& defaults = *result.files.front().defaults;
-  Suite suite = make_suite(forced, reported, defaults, {}, watch.limits);
+  const FaultRuns faults = runs_of_faults(inputs->tree, forced, watch);
+  Suite suite =
+      make_suite(forced, reported, defaults, faults.runs, watch.limits);
   watch.monitor.clear();
   const DescribedSuite described = described_suite(input, forced_tree);
   note_scripts(described, forced_tree, system.network(), suite);
@@ -200,7 +223,7 @@ ExitCode run_tests(const Options& asked) {
     return ExitCode::BadInput;
   }
   if (!write_files(options, files)) return ExitCode::BadInput;
-  std::string told = suite_summary(suite, tree);
+  std::string told = suite_summary(suite, tree) + faults_summary(faults);
   if (!options.is_quiet) {
     for (const SuiteFile& file : files) {
       told +=

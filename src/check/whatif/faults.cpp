@@ -118,7 +118,7 @@ class List {
   }
 
   void leave_out(NodeId leaf, FaultKind kind, std::string_view why) {
-    auto same = std::ranges::find(found_.left_out, why, &LeftOut::why);
+    auto same = std::ranges::find(found_.left_out, why, &OmittedFaults::why);
     if (same == found_.left_out.end()) {
       found_.left_out.push_back({{}, {}, std::string(why)});
       same = found_.left_out.end() - 1;

@@ -37,7 +37,7 @@ struct FaultChoices {
 };
 
 // Kinds of faults that a leaf cannot have, or that change nothing.
-struct LeftOut {
+struct OmittedFaults {
   std::vector<NodeId> leaves;
   std::vector<FaultKind> kinds;
   std::string why;
@@ -45,7 +45,7 @@ struct LeftOut {
 
 struct PossibleFaults {
   std::vector<InjectedFault> faults;  // by leaf in pre-order, by kind
-  std::vector<LeftOut> left_out;
+  std::vector<OmittedFaults> left_out;
   std::vector<NodeId> guessed;  // leaves that are taken for conditions
 };
 PossibleFaults possible_faults(const BehaviorTree& tree,
