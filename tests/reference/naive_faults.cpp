@@ -90,6 +90,7 @@ struct LeafState {
   int late = 0;    // ticks for which it has run too long
   int since = -1;  // ticks for which it runs already
   bool succeeded = false;
+  bool has_found = false;  // what it looks for: it never fails again
 };
 
 struct State {
@@ -160,6 +161,7 @@ class Mission {
       const LeafState& leaf = state.leaves[n];
       words.push_back(leaf.phase);
       words.push_back(leaf.late);
+      words.push_back(leaf.has_found ? 1 : 0);
       words.push_back(most_[n] < 0 ? 0 : std::min(leaf.since, most_[n]));
     }
     words.push_back(static_cast<int>(state.end));
@@ -202,6 +204,10 @@ class Mission {
       return;
     }
     if (what != "running") leaf(node).since = -1;
+    if (what == "success" &&
+        tree_.node(node).contract.memory == LeafMemory::SuccessStays) {
+      leaf(node).has_found = true;
+    }
     if (node == left_out) {
       leaf(node).succeeded = what == "success";
     } else {
@@ -242,8 +248,10 @@ class Mission {
     if (contract.may_succeed) answers.emplace_back("success");
     const bool must_succeed =
         asked_one.type == NodeType::Action && contract.may_succeed;
-    if (contract.may_fail && !must_succeed) answers.emplace_back("failure");
     LeafState& state = leaf(node);
+    if (contract.may_fail && !must_succeed && !state.has_found) {
+      answers.emplace_back("failure");
+    }
     const int most = most_[index(node)];
     if (most == 0) return one_of(answers);
     if (state.since < 0) state.since = 0;
