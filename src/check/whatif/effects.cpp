@@ -235,6 +235,10 @@ std::optional<Recovery> recovery_on(const BehaviorTree& tree, NodeId leaf,
     if (at->what() == Happening::Asked) {
       if (!asked[index(node)]) through.insert(node);
       if (node == leaf && caught) recovery.is_asked_again = true;
+      // In each tick its running is passed on anew.
+      if (tree.node(node).is_root() && answer == Happening::Running) {
+        below = leaf;
+      }
     }
     if (node == leaf) {
       if (!is_answer(at->what()) || caught) continue;
