@@ -190,6 +190,6 @@ with tempfile.TemporaryDirectory() as name:
     for text in shell:
         if text not in (git_hook, container):
             run(text, project)
-    look_for(project, "btcheck.xml")
+    look_for(project, "btcheck.xml", "faults.json", "faults.html")
     run_hooks(project)
 print(f"a job, a matrix, GitLab's job, {len(shell)} other lines and a hook")

@@ -308,7 +308,8 @@ TEST_CASE("a refusal says what was meant, or where an option belongs") {
        "--stats belongs to `btcheck space`",
        "btcheck space TREE --stats json"},
       {{"simulate", "t.btf", "--prop", "p.ltl"},
-       "--prop belongs to check, lint, export, trace, run, monitor and watch",
+       "--prop belongs to check, lint, export, trace, run, monitor, watch and "
+       "whatif",
        "btcheck TREE --prop RULES.ltl"},
       {{"watch"}, "no robot", "btcheck watch groot2://robot --prop RULES.ltl"},
       {{"watch", "groot2://r", "--inject", "a fails"},
@@ -326,6 +327,26 @@ TEST_CASE("a refusal says what was meant, or where an option belongs") {
       {{"watch", "groot2://r", "-o", "run.log"},
        "-o run.log: a log is called FILE.btlog",
        "Groot2 opens no other"},
+      {{"whatif"}, "no tree", "btcheck whatif TREE"},
+      {{"whatif", "t.btf", "--order", "3"},
+       "whatif: --order 3: no such number",
+       "write 1 or 2"},
+      {{"whatif", "t.btf", "--late", "0"},
+       "--late 0: not a number that it takes",
+       "write a whole number from 1 to 1000000"},
+      {{"whatif", "t.btf", "--format", "sarif"},
+       "whatif: --format sarif: no such format",
+       "write text, json, csv, html, dot, svg or opsa, or FORMAT=FILE"},
+      {{"whatif", "t.btf", "--format", "csv", "--format", "json"},
+       "two formats on standard output",
+       "give one of them a file: --format json=FILE"},
+      {{"whatif", "t.btf", "--format", "csv=f", "--format", "json=f"},
+       "two formats in the file `f`",
+       "give one of them a file: --format json=FILE"},
+      {{"whatif", "t.btf", "--faults", "breaks"},
+       "whatif: --faults breaks: no such kind",
+       "write fails, fails-once, fails-for-ever, says-yes, never-ends, late, "
+       "inverted, flips-once, halted, writes-nothing, writes-other or throws"},
       {{"watch", "-"},
        "watch does not read standard input",
        "name a file: btcheck watch groot2://robot --prop RULES.ltl"},
@@ -457,6 +478,33 @@ TEST_CASE("a batch has options of its own, and shares the cores out") {
         Words{"t.btf", "--resume"}}) {
     CHECK(answer_to(words).code == ExitCode::BadInput);
   }
+}
+
+TEST_CASE("what breaks is asked for by kinds, and told in several ways") {
+  const Options options = options_of(
+      {"whatif",   "t.xml",    "--order",     "2",        "--faults",
+       "fails",    "--faults", "throws",      "--late",   "50",
+       "--others", "contract", "--only",      "Dock",     "--against",
+       "old.json", "--format", "html=f.html", "--format", "csv=f.csv"});
+  CHECK(options.command == Command::WhatIf);
+  const FaultPlan& plan = options.faults;
+  CHECK(plan.order == 2);
+  CHECK(plan.choices.kinds == std::vector{FaultKind::Fails, FaultKind::Throws});
+  CHECK(plan.choices.late == 50);
+  CHECK(plan.choices.others == Others::AsContract);
+  CHECK(plan.only == "Dock");
+  CHECK(plan.against == "old.json");
+  // Text goes to standard output where no other format does.
+  REQUIRE(plan.outputs.size() == 3);
+  CHECK(plan.outputs[0].format == FaultFormat::Text);
+  CHECK(plan.outputs[0].file == "");
+  CHECK(plan.outputs[1].format == FaultFormat::Html);
+  CHECK(plan.outputs[1].file == "f.html");
+  CHECK(plan.outputs[2].format == FaultFormat::Csv);
+  const Options other = options_of({"whatif", "t.xml", "--format", "json"});
+  REQUIRE(other.faults.outputs.size() == 1);
+  CHECK(other.faults.outputs[0].format == FaultFormat::Json);
+  CHECK(options_of({"whatif", "t.xml"}).faults.outputs.size() == 1);
 }
 
 TEST_CASE("a watch refuses by name what ends, or is kept once") {

@@ -211,6 +211,11 @@ const std::map<std::string_view, std::string> kValues = {
     {"--diff", "--diff"},
     {"--verify", "--verify"},
     {"--stdin-name", "--stdin-name t.ltl"},
+    {"--order", "--order 2"},
+    {"--faults", "--faults never-ends"},
+    {"--only", "--only act"},
+    {"--late", "--late 1"},
+    {"--others", "--others contract"},
     {"--color", "--color always"},
     {"-q", "-q"},
     {"-v", "-v"},
@@ -313,6 +318,8 @@ std::vector<std::string> lines_of(const CommandRow& row,
               line + " --prop trees/t.ltl " + "<events.jsonl"};
     case Command::Tests:
       return {line + " -o suites", line + " -o . --to jsonl"};
+    case Command::WhatIf:
+      return {line, line + " --format json"};
     case Command::Conform:
       return {"conform run.btlog trees/" + language.tree,
               "conform run.btlog --coverage trees/" + language.tree};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Whatever the README and the page on upgrading show of `$
+// Whatever the README and the pages on upgrading and faults show of `$
 // build/release/btcheck …` is what the program prints, on stdout. With
 // BTCHECK_UPDATE=1 in the environment it is written into them anew.
 #include <doctest/doctest.h>
@@ -57,6 +57,10 @@ TEST_CASE("the README shows what the program prints") {
 
 TEST_CASE("the page on upgrading shows what the program prints") {
   CHECK(look_at(kRoot + "/docs/upgrading.md") >= 8);
+}
+
+TEST_CASE("the page on faults shows what the program prints") {
+  CHECK(look_at(kRoot + "/docs/whatif.md") >= 2);
 }
 
 }  // namespace btcheck::readme_test

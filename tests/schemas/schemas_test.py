@@ -177,6 +177,19 @@ def look_at_batches(out):
                                  "--format", "jsonl"), "progress")
 
 
+def look_at_faults(out):
+    """Trees with faults that are silent, noticed, recovered from; with rules and pairs."""
+    for folder, words in (("whatif_rules", ("-e", "never Charge.failure", "--order", 2)),
+                          ("whatif_silent", ("--trace-dir", out / "faults", "--only", "Upload")),
+                          ("whatif_silent", ("--max-states", 20, "--late", 3)),
+                          ("whatif_of_btf", ("--others", "contract", "--faults", "fails"))):
+        tree = "tree.btf" if folder.endswith("btf") else "tree.xml"
+        written("whatif", btcheck(regress / folder, "whatif", tree, "-q", *words,
+                                  "--format", "json"), f"whatif {folder}")
+    for file in sorted((out / "faults").glob("*.itf.json"))[::4]:
+        written("run", file.read_text(), file.name)
+
+
 def members(schema):
     """The names that a schema has for members, wherever."""
     if isinstance(schema, list):
@@ -251,6 +264,7 @@ with tempfile.TemporaryDirectory() as name:
     look_at_included(out)
     look_at_library()
     look_at_batches(out)
+    look_at_faults(out)
     trees = sorted(file for form in ("btf", "xml") for file in regress.glob(f"*/tree.{form}"))
     third = trees[::3]
     for tree in third:

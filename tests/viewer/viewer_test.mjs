@@ -19,6 +19,7 @@ import { browser, checkLook, file, folder, go, isHidden, loaded, look, open,
          options, page, recorded, step, text } from "./opened_page.mjs";
 import "./live_test.mjs";
 import "./pictures.mjs";
+import "./whatif_test.mjs";
 
 test("colours and glyphs of nodes are those of the state", async () => {
   const run = recorded("lasso");

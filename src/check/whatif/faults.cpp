@@ -51,7 +51,7 @@ class List {
   PossibleFaults take() {
     for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
       const Node& node = tree_.nodes[n];
-      if (!may_have_faults(node)) continue;
+      if (!may_have_faults(node) || !is_wanted(NodeId{n})) continue;
       if (is_taken_for_condition(node)) found_.guessed.push_back(NodeId{n});
       for (const FaultFacts& facts : kFaults) look_at(NodeId{n}, facts.kind);
     }
@@ -59,6 +59,15 @@ class List {
   }
 
  private:
+  bool is_wanted(NodeId leaf) const {
+    const auto& below = choices_.below;
+    if (below.empty()) return true;
+    for (;; leaf = tree_.node(leaf).parent) {
+      if (std::ranges::find(below, leaf) != below.end()) return true;
+      if (tree_.node(leaf).is_root()) return false;
+    }
+  }
+
   void look_at(NodeId leaf, FaultKind kind) {
     const auto& wanted = choices_.kinds;
     if (!wanted.empty() && std::ranges::find(wanted, kind) == wanted.end()) {

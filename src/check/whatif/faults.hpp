@@ -34,6 +34,8 @@ struct FaultChoices {
   // Ticks by which a leaf ends too late: beyond its contract, if that says how
   // long it takes.
   int late = 10;
+  // Of leaves that are these nodes, or below them; empty: of all.
+  std::vector<NodeId> below = {};
 };
 
 // Kinds of faults that a leaf cannot have, or that change nothing.

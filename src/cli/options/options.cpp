@@ -140,18 +140,34 @@ std::optional<Target> target_of(const std::string& word,
                 sign == word.npos ? "" : word.substr(sign + 1)};
 }
 
-// A format of a report. Some commands take a part of the formats only.
-ReportTarget report_target(const std::string& word, Command command) {
-  const auto own = choices_of(*option_of(command, "--format"));
-  const auto all = choices_of(*option_of(Command::Check, "--format"));
-  const auto target = target_of(word, all);
-  if (!target ||
-      std::find(own.begin(), own.end(), all[target->choice]) == own.end()) {
-    refuse(
-        fmt::format("{}--format {}: no such format", spoken_of(command), word),
-        fmt::format("write {}, or FORMAT=FILE", listed(own, "or")));
+// What --format asks for, by the choices of Check or of the command itself.
+// Standard output belongs to one format, and so does each file. Text, the first
+// choice, goes to standard output unless another format does.
+std::vector<Target> targets_of(const OptionWords& words, Command of) {
+  std::vector<Target> targets;
+  const auto find = [&](const std::string& file) {
+    return std::ranges::find(targets, file, &Target::file);
+  };
+  for (const std::string& word : words.all("--format")) {
+    const auto own = choices_of(*option_of(words.command, "--format"));
+    const auto all = choices_of(*option_of(of, "--format"));
+    const auto target = target_of(word, all);
+    if (!target || std::ranges::count(own, all[target->choice]) == 0) {
+      refuse(fmt::format("{}--format {}: no such format",
+                         spoken_of(words.command), word),
+             fmt::format("write {}, or FORMAT=FILE", listed(own, "or")));
+    }
+    if (find(target->file) != targets.end()) {
+      refuse(target->file.empty()
+                 ? "two formats on standard output"
+                 : fmt::format("two formats in the file `{}`", target->file),
+             fmt::format("give one of them a file: --format {}=FILE",
+                         word.substr(0, word.find('='))));
+    }
+    targets.push_back(*target);
   }
-  return {static_cast<ReportFormat>(target->choice), target->file};
+  if (find("") == targets.end()) targets.insert(targets.begin(), Target{});
+  return targets;
 }
 
 void settle_judgement(const OptionWords& words, Options& options) {
@@ -167,31 +183,23 @@ void settle_judgement(const OptionWords& words, Options& options) {
   }
 }
 
-// Standard output belongs to one format, and so does each file. Text goes to
-// standard output unless another format does.
 void settle_reports(const OptionWords& words, Options& options) {
   options.trace_dir = words.value("--trace-dir");
   options.tries_repairs = !words.has("--no-repairs");
   settle_choice(words, "--stats", options.statistics);
-  std::vector<ReportTarget> targets;
-  const auto find = [&](const std::string& file) {
-    return std::find_if(targets.begin(), targets.end(),
-                        [&](const auto& one) { return one.file == file; });
-  };
-  for (const std::string& word : words.all("--format")) {
-    ReportTarget target = report_target(word, options.command);
-    if (find(target.file) != targets.end()) {
-      refuse(target.file.empty()
-                 ? "two formats on standard output"
-                 : fmt::format("two formats in the file `{}`", target.file),
-             fmt::format("give one of them a file: --format {}=FILE",
-                         word.substr(0, word.find('='))));
+  if (options.command == Command::WhatIf) {
+    options.faults.outputs.clear();
+    for (const Target& target : targets_of(words, Command::WhatIf)) {
+      options.faults.outputs.push_back(
+          {static_cast<FaultFormat>(target.choice), target.file});
     }
-    targets.push_back(std::move(target));
+    return;
   }
-  if (find("") == targets.end())
-    targets.insert(targets.begin(), ReportTarget{});
-  options.reports = std::move(targets);
+  options.reports.clear();
+  for (const Target& target : targets_of(words, Command::Check)) {
+    options.reports.push_back(
+        {static_cast<ReportFormat>(target.choice), target.file});
+  }
 }
 
 // Where the graph of a space goes: "aut", "dot=FILE".

@@ -127,12 +127,20 @@ struct RobotPlan {
   std::optional<int> break_ms;      // --break-for
 };
 
+// What `whatif` tells of faults; in the order of its --format in tables.cpp.
+enum class FaultFormat : std::uint8_t { Text, Json, Csv, Html, Dot, Svg, Opsa };
+struct FaultTarget {
+  FaultFormat format = FaultFormat::Text;
+  std::string file = {};  // "" for standard output
+};
+
 // What `whatif` puts into a tree, and what it tells of it.
 struct FaultPlan {
   FaultChoices choices;  // --faults, --late, --others
   int order = 1;         // --order
   std::string only;      // --only: a leaf, or a node above some; "" for all
   std::string against;   // --against: an earlier result; "" for none
+  std::vector<FaultTarget> outputs = {FaultTarget{}};  // --format
 };
 
 // How `space` tells its figures.

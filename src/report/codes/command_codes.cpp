@@ -510,6 +510,17 @@ constexpr CodeRow kCommandCodes[] = {
      .help = "Watch fewer folders, exclude some in btcheck.toml, or ask for "
              "more: sysctl fs.inotify.max_user_watches=524288.",
      .severity = Severity::Warning},
+    {.code = "BT1515",
+     .summary = "a file that is no result of `whatif`",
+     .description =
+         "`btcheck whatif --against` reads what `--format json` has written "
+         "of the same mission. Results that were made of other faults, by "
+         "`--late`, or beside other leaves, by `--others`, cannot be compared.",
+     .help = "Write it again: btcheck whatif TREE --format json=FILE.",
+     .example = {.tree = kOneAction,
+                 .other_name = "faults.json",
+                 .other = "{}",
+                 .command = "whatif tree.btf --against faults.json"}},
     {.code = "BT1701",
      .summary = "a tree that is not run",
      .description = "`btcheck run` executes trees in .btf. A tree for "

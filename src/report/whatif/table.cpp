@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+//
+// The worst first. Rows that say the same are one entry, with all their
+// numbers; of what is survived each leaf has a line.
 #include "report/whatif/table.hpp"
 
 #include <fmt/format.h>
@@ -8,218 +11,395 @@
 #include <vector>
 
 #include "report/text/report.hpp"
+#include "report/whatif/groups.hpp"
 
 namespace btcheck {
 namespace {
 
-std::string quoted(const BehaviorTree& tree, NodeId node) {
-  return fmt::format("`{}`", short_name(tree, node));
-}
+constexpr std::size_t kIndent = 9;  // behind the numbers of rows
+constexpr std::size_t kMostPairs = 20;
+constexpr std::size_t kMostParts = 12;
 
-// "`a`, `b` and 2 more".
-std::string some(const BehaviorTree& tree, const std::vector<NodeId>& nodes) {
-  constexpr std::size_t kMost = 3;
-  std::string text;
-  for (std::size_t i = 0; i < nodes.size() && i < kMost; ++i) {
-    text += (i == 0 ? "" : ", ") + quoted(tree, nodes[i]);
+class Table {
+ public:
+  Table(const BehaviorTree& tree, const WhatIf& result,
+        const TableChoices& choices)
+      : tree_(tree), result_(result), choices_(choices) {}
+
+  std::string take() {
+    add(fmt::format("{}: what the mission does when something breaks",
+                    tree_.file));
+    add(healthy_text(result_));
+    tell_assumptions();
+    for (std::size_t h = 0; h < kHarms; ++h) tell_rows(static_cast<Harm>(h));
+    tell_pairs();
+    tell_cut_sets();
+    tell_scores();
+    return std::move(text_);
   }
-  if (nodes.size() <= kMost) return text;
-  return text + fmt::format(" and {} more", nodes.size() - kMost);
-}
 
-std::string_view verb_of(Happening what) {
-  switch (what) {
-    case Happening::Success:
-      return "succeeds";
-    case Happening::Failure:
-      return "fails";
-    case Happening::Running:
-      return "runs";
-    case Happening::Skipped:
-      return "is skipped";
-    case Happening::Halted:
-      return "is halted";
-    case Happening::Asked:
-    case Happening::Struck:
-      return "is asked";
+ private:
+  // A paragraph.
+  void add(const std::string& text, std::size_t indent = 0) {
+    text_ += fmt::format("{:{}}{}\n", "", indent,
+                         wrapped(text, indent, choices_.width));
   }
-  return "";
-}
 
-std::string later(int ticks) {
-  return ticks == 0 ? "in the same tick"
-                    : fmt::format("{} later",
-                                  counted(static_cast<std::uint64_t>(ticks),
-                                          "tick", "ticks"));
-}
+  const std::vector<FaultRow>& rows() const { return result_.rows; }
 
-std::string fault_text(const BehaviorTree& tree, const InjectedFault& fault) {
-  return fmt::format("{} {}", quoted(tree, fault.leaf),
-                     facts_of(fault.fault.kind).told);
-}
-
-// Of the mission without faults.
-std::string healthy_text(const WhatIf& result) {
-  const Effect& healthy = result.healthy;
-  std::vector<std::string> ways;
-  if (healthy.succeeds) ways.emplace_back("succeeds");
-  if (healthy.fails) ways.emplace_back("fails");
-  if (healthy.throws) ways.emplace_back("ends by an exception");
-  if (healthy.hangs) ways.emplace_back("never ends");
-  if (ways.empty()) ways.emplace_back("does not end");
-  std::string text = "Without a fault the mission ";
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 == ways.size() ? " or " : ", ") + ways[i];
+  void tell_assumptions() {
+    const auto& possible = result_.possible;
+    const std::size_t most = choices_.tells_all ? possible.guessed.size() : 6;
+    if (!possible.guessed.empty()) {
+      add(fmt::format("Taken for conditions, by their names: {}.",
+                      names_in_text(tree_, possible.guessed, most)));
+    }
+    std::size_t rules = 0;
+    for (const PropertyFile& file : result_.rules) {
+      rules += file.properties.size();
+    }
+    if (rules > 0) {
+      add(fmt::format("{} without a fault, and {} asked with each.",
+                      counted(rules, "rule holds", "rules hold"),
+                      rules == 1 ? "is" : "are"));
+    }
+    if (!result_.broken_rules.empty()) {
+      add(fmt::format("Not asked, as {} without a fault: {}.",
+                      result_.broken_rules.size() == 1 ? "it does not hold"
+                                                       : "they do not hold",
+                      fmt::join(result_.broken_rules, ", ")));
+    }
+    tell_left_out();
   }
-  return text + (ways.size() == 1 ? " on every run" : "");
-}
 
-std::string row_text(const BehaviorTree& tree, const WhatIf& result,
-                     const FaultRow& row, std::size_t number) {
-  std::string text = fmt::format("{:>4}  {}\n", number, faults_text(tree, row));
-  const auto add = [&](const std::string& line) {
-    if (!line.empty()) text += fmt::format("      {}\n", line);
-  };
-  std::string what =
-      fmt::format("the mission {}", harm_text(tree, result, row));
-  if (row.faults.size() == 1 && row.harm != Harm::Silent && row.notice) {
-    what += fmt::format("; noticed: {}", notice_text(tree, row));
+  void tell_left_out() {
+    const auto& left_out = result_.possible.left_out;
+    if (left_out.empty()) return;
+    if (!choices_.tells_all) {
+      std::vector<NodeId> leaves;
+      for (const LeftOut& each : left_out) {
+        for (const NodeId leaf : each.leaves) {
+          if (std::ranges::find(leaves, leaf) == leaves.end()) {
+            leaves.push_back(leaf);
+          }
+        }
+      }
+      add(
+          fmt::format("Faults of {} that would change nothing are left out; -v "
+                      "names them.",
+                      counted(leaves.size(), "leaf", "leaves")));
+      return;
+    }
+    for (const LeftOut& each : left_out) {
+      add(fmt::format("Left out, as {}: {} of {}.", each.why,
+                      kind_words(each.kinds),
+                      names_in_text(tree_, each.leaves, each.leaves.size())));
+    }
   }
-  add(what);
-  add(recovery_text(tree, row));
-  return text;
-}
+
+  // --- Single faults ------------------------------------------------------
+
+  void tell_rows(Harm harm) {
+    FaultSets sets(rows().size());
+    std::vector<std::string> said(rows().size());
+    std::size_t count = 0;
+    const bool is_brief = harm == Harm::NotAsked ||
+                          (harm == Harm::Survives && !choices_.tells_all);
+    for (std::size_t i = 0; i < rows().size(); ++i) {
+      if (rows()[i].harm != harm) continue;
+      ++count;
+      sets[i] = rows()[i].faults;
+      said[i] = is_brief ? recovery_text(tree_, rows()[i]) : said_of(rows()[i]);
+    }
+    if (count == 0) return;
+    const auto groups = grouped_singles(sets, said);
+    if (harm == Harm::NotAsked) {
+      tell_not_asked(groups, count);
+      return;
+    }
+    text_ += '\n';
+    add(fmt::format("{} ({}): {}", facts_of(harm).word, count,
+                    heading_of(harm)));
+    for (const FaultGroup& group : groups) {
+      if (is_brief) {
+        tell_briefly(group);
+      } else {
+        tell(group);
+      }
+    }
+  }
+
+  // What has to be the same of rows that are told together.
+  std::string said_of(const FaultRow& row) const {
+    std::string said = what_of(row) + recovery_text(tree_, row);
+    if (row.notice) {
+      said += fmt::format(" {} {}", index(row.notice->node),
+                          answer_word(row.notice->what));
+    }
+    return said;
+  }
+
+  // What the heading does not say already.
+  std::string what_of(const FaultRow& row) const {
+    switch (row.harm) {
+      case Harm::Silent:
+      case Harm::RuleBreaks:
+      case Harm::LeftOn:
+        return fmt::format("the mission {}", harm_text(tree_, result_, row));
+      case Harm::Survives:
+        return row.effect.succeeds && !row.effect.fails
+                   ? "the mission succeeds all the same"
+                   : "";
+      default:
+        return "";
+    }
+  }
+
+  void tell(const FaultGroup& group) {
+    const FaultRow& row = rows()[group.places[0]];
+    begin_entry(ranges_text(group.places, 0),
+                subject_of(group) + " " + kinds_text(group.kinds));
+    std::vector<std::string> parts;
+    const std::string what = what_of(row);
+    if (!what.empty()) parts.push_back(what);
+    if (row.harm != Harm::Silent) {
+      const std::string noticed = noticed_of(group);
+      if (!noticed.empty()) parts.push_back(noticed);
+    }
+    const std::string run = run_of(row);
+    if (!run.empty()) parts.push_back(run);
+    if (!parts.empty()) detail(fmt::format("{}", fmt::join(parts, "; ")));
+    detail(recovery_text(tree_, row));
+  }
+
+  std::string subject_of(const FaultGroup& group) const {
+    return group.leaves.size() == 1
+               ? name_in_text(tree_, group.leaves[0])
+               : fmt::format("each of {}", names_in_text(tree_, group.leaves,
+                                                         group.leaves.size()));
+  }
+
+  std::string noticed_of(const FaultGroup& group) const {
+    const FaultRow& row = rows()[group.places[0]];
+    if (!row.notice) {
+      const bool is_reported =
+          row.harm == Harm::Fails || row.harm == Harm::MayFail;
+      return is_reported ? "looks like a run without a fault" : "";
+    }
+    std::string text = fmt::format("noticed: {}", notice_text(tree_, row));
+    int most = 0;
+    for (const std::size_t place : group.places) {
+      const auto& within = rows()[place].within;
+      if (!within) return text;
+      most = std::max(most, *within);
+    }
+    if (most > row.notice->ticks) {
+      text += fmt::format(
+          ", on other runs up to {}",
+          counted(static_cast<std::uint64_t>(most), "tick", "ticks"));
+    }
+    return text;
+  }
+
+  // Where it matters: when it strikes, and when the mission is over.
+  static std::string run_of(const FaultRow& row) {
+    const bool is_told = is_bad(row.harm) || row.harm == Harm::MayFail;
+    if (!is_told || row.struck_in == 0) return "";
+    if (row.harm == Harm::NeverEnds) {
+      return fmt::format("struck in tick {}", row.struck_in);
+    }
+    return fmt::format("struck in tick {}, over in tick {}", row.struck_in,
+                       row.ended_in);
+  }
+
+  void tell_briefly(const FaultGroup& group) {
+    const FaultRow& row = rows()[group.places[0]];
+    std::string text =
+        fmt::format("{}: {}", names_in_text(tree_, group.leaves, 6),
+                    kind_words(group.kinds));
+    const std::string recovery = recovery_text(tree_, row);
+    if (!recovery.empty()) text += "; " + recovery;
+    begin_entry(ranges_text(group.places, 0), text);
+  }
+
+  // A leaf that nobody asks has no fault that strikes: one line for all.
+  void tell_not_asked(const std::vector<FaultGroup>& groups,
+                      std::size_t count) {
+    std::vector<NodeId> leaves;
+    std::vector<std::size_t> places;
+    for (const FaultGroup& group : groups) {
+      for (const NodeId leaf : group.leaves) {
+        if (std::ranges::find(leaves, leaf) == leaves.end()) {
+          leaves.push_back(leaf);
+        }
+      }
+      places.insert(places.end(), group.places.begin(), group.places.end());
+    }
+    std::ranges::sort(leaves);
+    text_ += '\n';
+    add(fmt::format("not-asked ({}): {}", count, heading_of(Harm::NotAsked)));
+    const std::size_t most = choices_.tells_all ? leaves.size() : 12;
+    begin_entry(ranges_text(places, 0), names_in_text(tree_, leaves, most));
+  }
+
+  void begin_entry(const std::string& numbers, const std::string& text) {
+    if (numbers.size() + 2 > kIndent) {
+      add(numbers, 2);
+      detail(text);
+      return;
+    }
+    text_ += fmt::format("{:>{}}  {}\n", numbers, kIndent - 2,
+                         wrapped(text, kIndent, choices_.width));
+  }
+  void detail(const std::string& text) {
+    if (text.empty()) return;
+    add(text, kIndent);
+  }
+
+  // --- Pairs, and what they come to ----------------------------------------
+
+  static FaultSets sets_of(const std::vector<FaultRow>& rows) {
+    FaultSets sets;
+    for (const FaultRow& row : rows) sets.push_back(row.faults);
+    return sets;
+  }
+
+  void tell_pairs() {
+    if (result_.order < 2) return;
+    text_ += '\n';
+    const auto& pairs = result_.pairs;
+    add(fmt::format(
+        "pairs ({} of {}, of which {} were searched): what neither fault does "
+        "alone",
+        pairs.size(), grouped(result_.pairs_in_all),
+        grouped(result_.pairs_searched)));
+    std::vector<std::string> said;
+    for (const FaultRow& pair : pairs) {
+      said.push_back(
+          fmt::format("the mission {}", harm_text(tree_, result_, pair)));
+    }
+    const auto groups = grouped_pairs(sets_of(pairs), said);
+    const std::size_t told = choices_.tells_all
+                                 ? groups.size()
+                                 : std::min(groups.size(), kMostPairs);
+    for (std::size_t i = 0; i < told; ++i) {
+      begin_entry(ranges_text(groups[i].places, rows().size()),
+                  pair_text(groups[i]));
+      detail(said[groups[i].places[0]]);
+    }
+    std::size_t rest = 0;
+    for (std::size_t i = told; i < groups.size(); ++i) {
+      rest += groups[i].places.size();
+    }
+    if (rest > 0) {
+      detail(fmt::format("and {} that are no worse",
+                         counted(rest, "pair", "pairs")));
+    }
+  }
+
+  std::string pair_text(const PairGroup& group) const {
+    return fmt::format("{} {}, and {} {}", one_of(group.first),
+                       kinds_text(group.first.kinds), one_of(group.second),
+                       kinds_text(group.second.kinds));
+  }
+  std::string one_of(const FaultGroup& group) const {
+    return group.leaves.size() == 1
+               ? name_in_text(tree_, group.leaves[0])
+               : fmt::format("one of {}", names_in_text(tree_, group.leaves,
+                                                        group.leaves.size()));
+  }
+
+  void tell_cut_sets() {
+    bool is_first = true;
+    for (const CutSets& cut : result_.cut_sets) {
+      if (cut.sets.empty()) continue;
+      if (std::exchange(is_first, false)) text_ += '\n';
+      std::size_t singles = 0;
+      for (const auto& set : cut.sets) singles += set.size() == 1;
+      add(fmt::format(
+          "{}: {}{}", event_text(result_, cut.event),
+          counted(singles, "single point of failure",
+                  "single points of failure"),
+          singles == cut.sets.size()
+              ? ""
+              : fmt::format(", and {}", counted(cut.sets.size() - singles,
+                                                "pair", "pairs"))));
+      const std::vector<std::string> said(cut.sets.size());
+      std::string text;
+      for (const FaultGroup& group : grouped_singles(cut.sets, said)) {
+        text +=
+            fmt::format("{}{} ({})", text.empty() ? "" : "; ",
+                        names_in_text(tree_, group.leaves, group.leaves.size()),
+                        kind_words(group.kinds));
+      }
+      detail(text);
+      tell_pairs_of(cut, said);
+    }
+  }
+
+  void tell_pairs_of(const CutSets& cut, const std::vector<std::string>& said) {
+    const auto groups = grouped_pairs(cut.sets, said);
+    constexpr std::size_t kMost = 4;
+    const std::size_t told =
+        choices_.tells_all ? groups.size() : std::min(groups.size(), kMost);
+    std::size_t rest = 0;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      if (i < told) {
+        detail(fmt::format("{} ({}) with {} ({})", one_of(groups[i].first),
+                           kind_words(groups[i].first.kinds),
+                           one_of(groups[i].second),
+                           kind_words(groups[i].second.kinds)));
+      } else {
+        rest += groups[i].places.size();
+      }
+    }
+    if (rest > 0) {
+      detail(fmt::format("and {}", counted(rest, "more pair", "more pairs")));
+    }
+  }
+
+  void tell_scores() {
+    text_ += '\n';
+    add(fmt::format("The mission: {}.", score_text(result_.score())));
+    std::size_t left = 0;
+    std::size_t told = 0;
+    for (const NodeId part : scored_parts(tree_)) {
+      const Score score = result_.score_below(tree_, part);
+      if (score.total() == 0) continue;
+      if (told++ >= kMostParts && !choices_.tells_all) {
+        ++left;
+        continue;
+      }
+      text_ += fmt::format(
+          "  {}\n", wrapped(fmt::format("{}: {}", name_in_text(tree_, part),
+                                        score_text(score)),
+                            4, choices_.width));
+    }
+    if (left > 0) {
+      add(fmt::format("and {}", counted(left, "more part", "more parts")), 2);
+    }
+    if (result_.stopped == StopReason::None) return;
+    SearchProgress progress;
+    progress.states = result_.healthy.states;
+    for (const FaultRow& row : rows()) progress.states += row.effect.states;
+    for (const FaultRow& row : result_.pairs) {
+      progress.states += row.effect.states;
+    }
+    text_ += '\n';
+    add(fmt::format("UNDECIDED {}", stop_text(result_.stopped, progress)));
+  }
+
+  const BehaviorTree& tree_;
+  const WhatIf& result_;
+  const TableChoices& choices_;
+  std::string text_;
+};
 
 }  // namespace
 
-std::string faults_text(const BehaviorTree& tree, const FaultRow& row) {
-  std::string text;
-  for (const InjectedFault& fault : row.faults) {
-    text += (text.empty() ? "" : ", and ") + fault_text(tree, fault);
-  }
-  return text;
-}
-
-std::string harm_text(const BehaviorTree& tree, const WhatIf& result,
-                      const FaultRow& row) {
-  const Effect& effect = row.effect;
-  if (row.harm == Harm::RuleBreaks) {
-    std::string names;
-    for (const RuleId& id : effect.broken) {
-      names += (names.empty() ? "" : ", ") +
-               result.rules[id.file].properties[id.rule].name;
-    }
-    return fmt::format("breaks {}", names);
-  }
-  if (row.harm == Harm::LeftOn) {
-    return effect.left_on.empty() ? fmt::format("ends while {} still runs",
-                                                some(tree, effect.left_running))
-                                  : fmt::format("ends with what {} has begun",
-                                                some(tree, effect.left_on));
-  }
-  const bool succeeds =
-      row.harm == Harm::Survives && effect.succeeds && !effect.fails;
-  return succeeds ? "succeeds all the same"
-                  : std::string(facts_of(row.harm).told);
-}
-
-std::string notice_text(const BehaviorTree& tree, const FaultRow& row) {
-  if (!row.notice) return "nobody";
-  return fmt::format("{} {}, {}", quoted(tree, row.notice->node),
-                     verb_of(row.notice->what), later(row.notice->ticks));
-}
-
-std::string recovery_text(const BehaviorTree& tree, const FaultRow& row) {
-  if (!row.recovery) return "";
-  const Recovery& recovery = *row.recovery;
-  std::string text =
-      fmt::format("caught by {}", quoted(tree, recovery.caught_by));
-  if (!recovery.through.empty()) {
-    text +=
-        fmt::format(", which goes on with {}", some(tree, recovery.through));
-  }
-  if (recovery.is_asked_again) {
-    text +=
-        fmt::format("; {} is asked again", quoted(tree, row.faults[0].leaf));
-  }
-  return text;
-}
-
-std::string event_text(const WhatIf& result, const TopEvent& event) {
-  switch (event.kind) {
-    case TopEvent::Kind::Fails:
-      return "the mission fails";
-    case TopEvent::Kind::CannotSucceed:
-      return "the mission cannot succeed";
-    case TopEvent::Kind::NeverEnds:
-      return "the mission never ends";
-    case TopEvent::Kind::Throws:
-      return "an exception leaves the tree";
-    case TopEvent::Kind::Rule:
-      return fmt::format(
-          "the rule {} is broken",
-          result.rules[event.rule.file].properties[event.rule.rule].name);
-  }
-  return "";
-}
-
-std::string score_text(const Score& score) {
-  const auto of = [&](Harm harm) { return score.of_harm(harm); };
-  const std::size_t well = of(Harm::Survives);
-  const std::size_t reported = of(Harm::Fails) + of(Harm::MayFail);
-  std::string text =
-      fmt::format("of {} {} are survived or reported ({} and {})",
-                  counted(score.total() - of(Harm::NotAsked), "single fault",
-                          "single faults"),
-                  well + reported, well, reported);
-  const std::pair<Harm, std::string_view> worse[] = {
-      {Harm::Silent, "end silently"},
-      {Harm::NeverEnds, "never end"},
-      {Harm::RuleBreaks, "break a rule"},
-      {Harm::LeftOn, "leave something on"},
-      {Harm::Throws, "leave the tree by an exception"},
-      {Harm::Undecided, "are not decided"}};
-  for (const auto& [harm, words] : worse) {
-    if (of(harm) > 0) text += fmt::format("; {} {}", of(harm), words);
-  }
-  if (of(Harm::NotAsked) > 0) {
-    text += fmt::format("; {} more cannot strike while all else works",
-                        of(Harm::NotAsked));
-  }
-  return text;
-}
-
 std::string what_if_text(const BehaviorTree& tree, const WhatIf& result,
                          const TableChoices& choices) {
-  std::string text = fmt::format("{}\n\n", healthy_text(result));
-  std::size_t number = 0;
-  for (std::size_t h = 0; h < kHarms; ++h) {
-    const auto harm = static_cast<Harm>(h);
-    const auto count = static_cast<std::size_t>(
-        std::ranges::count(result.rows, harm, &FaultRow::harm));
-    if (count == 0) continue;
-    text += fmt::format("{} ({})\n", facts_of(harm).word, count);
-    const bool is_told = choices.tells_all || harm < Harm::Survives;
-    for (const FaultRow& row : result.rows) {
-      if (row.harm != harm) continue;
-      ++number;
-      if (is_told) text += row_text(tree, result, row, number);
-    }
-    text += '\n';
-  }
-  if (!result.pairs.empty()) {
-    text += fmt::format("pairs ({})\n", result.pairs.size());
-    for (const FaultRow& row : result.pairs) {
-      text += row_text(tree, result, row, ++number);
-    }
-    text += '\n';
-  }
-  for (const CutSets& cut : result.cut_sets) {
-    if (cut.sets.empty()) continue;
-    text += fmt::format("{}: {}\n", event_text(result, cut.event),
-                        counted(cut.sets.size(), "cut set", "cut sets"));
-  }
-  return text + score_text(result.score()) + '\n';
+  return Table(tree, result, choices).take();
 }
 
 }  // namespace btcheck

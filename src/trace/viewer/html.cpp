@@ -63,26 +63,26 @@ std::string filled(std::string_view form, const Gaps& gaps) {
 
 namespace {
 
-// Of longer runs, and of those that go on, the lanes show a window.
-constexpr std::size_t kLongRun = 1000;
-
 // What a page that is served has beside the others; nothing in those.
 struct Served {
   std::string policy = {};
   std::string style = {};
   std::string nonce = {};  // an attribute of the script
   std::string script = "begin(Viewer);";
+  // Of long runs, and of those that go on, the lanes show a window.
   bool is_long = false;
 };
 
-std::string page(const RecordedRun& run, std::string packed,
-                 const Served& served) {
-  const std::string title =
-      fmt::format("{} {} · {}", run.verdict, run.property, run.tree);
+std::string title_of(const RecordedRun& run) {
+  return escaped(
+      fmt::format("{} {} · {}", run.verdict, run.property, run.tree));
+}
+
+std::string page(std::string title, std::string packed, const Served& served) {
   return filled(
       kViewerPage,
       {{"{{policy}}", served.policy},
-       {"{{title}}", escaped(title)},
+       {"{{title}}", std::move(title)},
        {"{{style}}",
         fmt::format("{}{}{}", joined(kViewerStyles),
                     served.is_long ? kViewerLongStyle : "", served.style)},
@@ -96,13 +96,18 @@ std::string page(const RecordedRun& run, std::string packed,
 }  // namespace
 
 std::string html_text(const RecordedRun& run) {
-  return page(run, packed_run(run), {.is_long = run.states.size() > kLongRun});
+  return page(title_of(run), packed_run(run),
+              {.is_long = run.states.size() > kLongRun});
+}
+
+std::string viewer_form(bool has_long_runs) {
+  return page("{{title}}", "{{run}}", {.is_long = has_long_runs});
 }
 
 std::string live_page(const RecordedRun& run, std::string packed,
                       std::string_view nonce) {
   return page(
-      run, std::move(packed),
+      title_of(run), std::move(packed),
       {"; connect-src 'self'", std::string(kViewerLiveStyle),
        fmt::format(" nonce=\"{}\"", nonce), std::string(kViewerLive), true});
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,6 +20,10 @@ namespace btcheck {
 // are no UTF-8 are replaced.
 std::string html_text(const RecordedRun& run);
 
+// The page with gaps, {{title}} and {{run}}: for a document of its own runs,
+// as packed.hpp makes them, that a script fills in.
+std::string viewer_form(bool has_long_runs);
+
 // The same page for a run that grows: it holds the beginning, packed with a
 // member "live", and listens to the server that it comes from for the rest
 // (src/run/view). `nonce` is that of the header Content-Security-Policy.
@@ -30,6 +35,8 @@ std::string live_page(const RecordedRun& run, std::string packed,
 // have a gap's name in its source.
 using Gaps = std::vector<std::pair<std::string_view, std::string>>;
 std::string filled(std::string_view form, const Gaps& gaps);
+// Runs of more states are long ones.
+inline constexpr std::size_t kLongRun = 1000;
 
 // The files of this folder, compiled in without what only their readers need;
 // together, one style sheet and one script.

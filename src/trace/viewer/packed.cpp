@@ -142,34 +142,48 @@ std::pair<std::size_t, std::uint32_t> KeyShortener::key_at(
 }
 
 RunPacker::RunPacker(const RecordedRun& run)
-    : run_(run), keys_(run.nodes), before_(nothing(run)) {
+    : run_(&run), keys_(run.nodes), before_(nothing(run)) {
   number_of("");
 }
 
+void RunPacker::begin(const RecordedRun& next) {
+  run_ = &next;
+  before_ = nothing(next);
+}
+
 Json RunPacker::about() const {
-  Json numbers = Json::array();
-  for (const bool is_number : run_.is_number) numbers.push(is_number ? 1 : 0);
-  Json document{{"tree", run_.tree},
-                {"source", run_.source},
-                {"ticks", run_.ticks},
-                {"property", run_.property},
-                {"formula", run_.formula},
-                {"verdict", run_.verdict},
-                {"why", run_.why},
-                {"nodes", nodes_of(run_)},
-                {"variables", Json::array(run_.variables)},
-                {"numbers", numbers},
-                {"atoms", Json::array(run_.atoms)}};
-  if (!run_.included.empty()) document.add("included", included_texts(run_));
-  if (run_.loop != kNoState) {
-    document.add("loop", run_.loop);
-    document.add("back", step_back(run_));
-  }
-  if (run_.lost != kNoState) document.add("lost", run_.lost);
-  if (run_.trigger != kNoState) document.add("trigger", run_.trigger);
-  document.add("trigger_words", run_.trigger_words);
-  document.add("end_words", run_.end_words);
+  Json document = shared();
+  add_own(document);
   return document;
+}
+
+Json RunPacker::shared() const {
+  Json numbers = Json::array();
+  for (const bool is_number : run_->is_number) numbers.push(is_number ? 1 : 0);
+  Json document{{"tree", run_->tree},
+                {"source", run_->source},
+                {"ticks", run_->ticks},
+                {"nodes", nodes_of(*run_)},
+                {"variables", Json::array(run_->variables)},
+                {"numbers", numbers}};
+  if (!run_->included.empty()) document.add("included", included_texts(*run_));
+  return document;
+}
+
+void RunPacker::add_own(Json& document) const {
+  document.add("property", run_->property);
+  document.add("formula", run_->formula);
+  document.add("verdict", run_->verdict);
+  document.add("why", run_->why);
+  document.add("atoms", Json::array(run_->atoms));
+  if (run_->loop != kNoState) {
+    document.add("loop", run_->loop);
+    document.add("back", step_back(*run_));
+  }
+  if (run_->lost != kNoState) document.add("lost", run_->lost);
+  if (run_->trigger != kNoState) document.add("trigger", run_->trigger);
+  document.add("trigger_words", run_->trigger_words);
+  document.add("end_words", run_->end_words);
 }
 
 void RunPacker::add(std::span<const RecordedState> more, Json& document) {

@@ -49,8 +49,14 @@ class RunPacker {
   // Of the run all but its states is read; it must outlive the packer.
   explicit RunPacker(const RecordedRun& run);
 
-  // What is told of a run beside its states.
+  // What is told of a run beside its states: what all runs of a tree have in
+  // common, and the rest.
   Json about() const;
+  Json shared() const;
+  void add_own(Json& document) const;
+  // Goes on with the beginning of another run of the same tree. Texts and
+  // changes keep their numbers; the first run must outlive the packer.
+  void begin(const RecordedRun& next);
   // Adds "states", and the "texts" and "changes" that are new with them.
   void add(std::span<const RecordedState> more, Json& document);
 
@@ -61,7 +67,7 @@ class RunPacker {
                                      const std::vector<std::string>& now,
                                      bool has_keys = false);
 
-  const RecordedRun& run_;
+  const RecordedRun* run_;
   KeyShortener keys_;
   std::unordered_map<std::string, std::size_t> number_of_;  // of texts
   std::vector<std::string> texts_;                          // that are new
