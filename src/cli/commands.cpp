@@ -31,7 +31,6 @@
 #include "cli/robots/watch.hpp"
 #include "lsp/command.hpp"
 #include "pins/words.hpp"
-#include "report/codes/codes.hpp"
 #include "report/formats/formats.hpp"
 #include "report/text/report.hpp"
 #include "report/text/space_report.hpp"
@@ -149,76 +148,6 @@ ExitCode run_export(const Options& options) {
     rest.remove_prefix(end + 1);
   }
   return judged.is_denied ? ExitCode::Missed : ExitCode::Met;
-}
-
-// --- explain -------------------------------------------------------------
-
-std::string example_text(const CodeExample& example) {
-  std::string text = "\nThe smallest example\n";
-  for (const ExampleFile& file : files_of(example)) {
-    text += fmt::format("\n  {}\n", file.name);
-    for (const char c : file.text) {
-      if (text.back() == '\n') text += "    ";
-      text += c;
-    }
-  }
-  text += '\n';
-  for (const std::string& command : commands_of(example)) {
-    text += fmt::format("  $ {}\n", command);
-  }
-  return text;
-}
-
-// "1014" is BT1014.
-std::string full_code(const std::string& word) {
-  const bool is_number =
-      !word.empty() && std::all_of(word.begin(), word.end(),
-                                   [](char c) { return c >= '0' && c <= '9'; });
-  return is_number ? "BT" + word : word;
-}
-
-[[noreturn]] void refuse_code(const std::string& word) {
-  std::vector<std::string> codes;
-  for (const CodeRow* row : all_codes()) codes.emplace_back(row->code);
-  const auto meant = closest_match(full_code(word), codes);
-  refuse(fmt::format("no code `{}`", word),
-         meant
-             ? fmt::format("did you mean {}? `btcheck explain` lists them all",
-                           *meant)
-             : "`btcheck explain` lists them all");
-}
-
-// What the code means, what to do, and the smallest example.
-std::string explanation(const CodeRow& row) {
-  std::string summary(row.summary);
-  if (summary.ends_with('.')) summary.pop_back();
-  std::string text =
-      fmt::format("{}: {}\n\n{}\n\nWhat to do: {}\n", row.code, summary,
-                  wrapped(row.description, 0), wrapped(row.help, 12));
-  if (row.example.exists()) text += example_text(row.example);
-  return text;
-}
-
-// Every code with its summary, a line for each.
-std::string code_list() {
-  std::string text;
-  for (const CodeRow* row : all_codes()) {
-    text += fmt::format("{}  {}\n", row->code, wrapped(row->summary, 8));
-  }
-  return text + "\n`btcheck explain CODE` tells more about one of them.\n";
-}
-
-// `btcheck explain [CODE]`.
-ExitCode run_explain(const Options& options) {
-  const std::string& code = options.input;
-  if (code.empty()) {
-    print(code_list());
-    return ExitCode::Met;
-  }
-  const CodeRow* row = code_named(full_code(code));
-  if (row == nullptr) refuse_code(code);
-  print(explanation(*row));
-  return ExitCode::Met;
 }
 
 // --- completions ---------------------------------------------------------

@@ -25,6 +25,7 @@ ExitCode run_simulate(const Options& options);
 ExitCode run_run(const Options& options);
 ExitCode run_init(const Options& options);
 ExitCode run_conform(const Options& options);
+ExitCode run_explain(const Options& options);
 ExitCode run_monitor(const Options& options);
 ExitCode run_fmt(const Options& options);
 ExitCode run_whatif(const Options& options);

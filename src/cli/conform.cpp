@@ -68,29 +68,6 @@ std::optional<Recordings> read_recordings(const Options& options,
   return read;
 }
 
-// The tree that is named, else the one in the first log.
-std::optional<Lowered> tree_of(const Options& asked, const Recordings& read) {
-  Options options = asked;
-  options.input = read.tree;
-  // Whether it is ticked again once it has ended is up to the robot's program.
-  options.loops |= std::ranges::any_of(
-      read.logs, [](const NamedLog& named) { return !is_own(named.log); });
-  if (!read.tree.empty()) return read_and_lower(options);
-  const NamedLog& first = read.logs.front();
-  std::vector<Diagnostic> found;
-  if (first.log.xml.empty()) {
-    show(options, {file_error("BT1807", first.name,
-                              "this log does not bring its tree along",
-                              "name the tree: btcheck conform LOG TREE")});
-    return std::nullopt;
-  }
-  if (options.main_tree.empty()) options.main_tree = first.log.tree;
-  auto inputs = inputs_of({first.name + ".xml", first.log.xml}, options, found);
-  show(options, found);
-  if (!inputs) return std::nullopt;
-  return lowered_from(std::move(*inputs), options);
-}
-
 std::string shown_event(const BehaviorTree& tree, const LogEvent& event) {
   return fmt::format("{} -> {}", short_name(tree, event.node),
                      kLogStatusNames[static_cast<std::size_t>(event.status)]);
@@ -426,7 +403,11 @@ ExitCode run_conform(const Options& options) {
     return watch.limits.reached({}) == StopReason::None ? ExitCode::BadInput
                                                         : ExitCode::Undecided;
   }
-  auto lowered = tree_of(options, *read);
+  // Whether it is ticked again once it has ended is up to the robot's program.
+  const bool loops = std::ranges::any_of(
+      read->logs, [](const NamedLog& named) { return !is_own(named.log); });
+  const NamedLog& first = read->logs.front();
+  auto lowered = tree_of_log(options, read->tree, first.name, first.log, loops);
   if (!lowered) return ExitCode::BadInput;
   return Following(options, std::move(*read), std::move(*lowered), watch).run();
 }

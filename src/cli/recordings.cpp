@@ -188,6 +188,30 @@ Result<BehaviorLog> read_whole_log(const Options& options,
   return log;
 }
 
+std::optional<Lowered> tree_of_log(const Options& asked,
+                                   const std::string& tree,
+                                   const std::string& name,
+                                   const BehaviorLog& log, bool loops) {
+  Options options = asked;
+  options.input = tree;
+  options.loops |= loops;
+  if (!tree.empty()) return read_and_lower(options);
+  std::vector<Diagnostic> found;
+  if (log.xml.empty()) {
+    show(options,
+         {file_error("BT1807", name, "this log does not bring its tree along",
+                     asked.command == Command::Conform
+                         ? "name the tree: btcheck conform LOG TREE"
+                         : "name the tree: btcheck explain LOG --tree TREE")});
+    return std::nullopt;
+  }
+  if (options.main_tree.empty()) options.main_tree = log.tree;
+  auto inputs = inputs_of({name + ".xml", log.xml}, options, found);
+  show(options, found);
+  if (!inputs) return std::nullopt;
+  return lowered_from(std::move(*inputs), options);
+}
+
 std::optional<std::vector<LiveRules>> live_rules(const Options& options,
                                                  const std::string& file) {
   const auto asked = asked_rules(options);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "check/check.hpp"
+#include "cli/inputs/inputs.hpp"
 #include "cli/options/options.hpp"
 #include "trace/live/live_log.hpp"
 #include "trace/logs/behavior_log.hpp"
@@ -26,6 +27,14 @@ Result<BehaviorLog> read_whole_log(const Options& options,
 // The bytes of these marks; nothing where there are none.
 std::optional<Result<InputFile>> marks_beside(const std::string& name,
                                               std::string_view bytes);
+
+// The tree that is named, else the one that the log brings along; ticked again
+// after its end, with `loops`. Nothing, and shows why, where there is none or
+// it cannot be read.
+std::optional<Lowered> tree_of_log(const Options& options,
+                                   const std::string& tree,
+                                   const std::string& name,
+                                   const BehaviorLog& log, bool loops);
 
 // The rules of --prop and -e, to be asked of a log that grows; nothing, and
 // shows why, where they cannot be read.

@@ -67,6 +67,7 @@ using Results = std::vector<BT::NodeStatus>;
 BT::NodeStatus status_of(const std::string& word) {
   if (word == "success") return BT::NodeStatus::SUCCESS;
   if (word == "failure") return BT::NodeStatus::FAILURE;
+  if (word == "throws") return BT::NodeStatus::IDLE;  // no answer
 #if ENGINE_4
   if (word == "skipped") return BT::NodeStatus::SKIPPED;
 #endif
@@ -159,6 +160,7 @@ class Script {
   BT::NodeStatus next(BT::TreeNode& node) {
     const BT::NodeStatus result = leaf_.results.at(next_);
     if (next_ + 1 < leaf_.results.size()) ++next_;
+    if (result == BT::NodeStatus::IDLE) throw std::runtime_error("a fault");
     if (result == BT::NodeStatus::SUCCESS) {
       for (const Effect& effect : leaf_.contract.on_success) {
         write(node, effect);

@@ -38,6 +38,27 @@ Answer answer_to(const Words& words) {
   return std::get<Answer>(result);
 }
 
+TEST_CASE("explain takes a code, or a log and what goes with it") {
+  CHECK(!options_of({"explain"}).explains_log);
+  CHECK(!options_of({"explain", "BT1014"}).explains_log);
+  CHECK(!options_of({"explain", "1014", "-q"}).explains_log);
+  const Options log = options_of({"explain", "robot.btlog", "--tree", "t.xml",
+                                  "--leaves", "t.leaves", "--format", "json"});
+  CHECK(log.explains_log);
+  CHECK(log.input == "robot.btlog");
+  CHECK(log.trace.tree == "t.xml");
+  CHECK(log.reports.at(0).format == ReportFormat::Json);
+  CHECK(options_of({"explain", "logs/1"}).explains_log);
+  CHECK(answer_to({"explain", "BT1014", "--tree", "t.xml"})
+            .text.find("--tree goes with a log") != std::string::npos);
+  CHECK(answer_to({"explain", "--format", "json"})
+            .text.find("--format goes with a log") != std::string::npos);
+  CHECK(answer_to({"explain", "r.btlog", "--format", "sarif"}).code ==
+        ExitCode::BadInput);
+  CHECK(answer_to({"explain", "a.btlog", "b.btlog"}).code ==
+        ExitCode::BadInput);
+}
+
 TEST_CASE("a tree alone is checked with every default") {
   const Options options = options_of({"t.btf"});
   CHECK(options.command == Command::Check);

@@ -23,6 +23,7 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
                                      const std::string& value) {
   std::vector<std::string> line = {"btcheck", std::string(command.word)};
   if (!command.missing.empty()) line.push_back("bash");
+  if (command.command == Command::Explain) line.push_back("robot.mcap");
   const bool asks_run =
       command.command == Command::Trace &&
       (option.name == "--trace-dir" || option.name == "--tick-ms");
@@ -62,6 +63,7 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
   }
   if (option.name == "--topic") {
     const bool reads_tree = command.command != Command::Trace &&
+                            command.command != Command::Explain &&
                             command.command != Command::Conform;
     if (reads_tree) {
       line.emplace_back("--from=robot.mcap");
@@ -73,6 +75,7 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
     if (command.command == Command::Conform) {
       line.emplace_back("--learn-leaves=new.leaves");
     } else if (command.command != Command::Trace &&
+               command.command != Command::Explain &&
                command.command != Command::Watch) {
       line.emplace_back("--from=robot.btlog@1");
     }

@@ -237,8 +237,8 @@ TEST_CASE("a text of several lines is one line wherever it is shown") {
   for (const std::string words :
        {"batch m.toml", "batch .", ". -v", "trace run.btlog --to text",
         "trace run.btlog --prop r.ltl", "conform run.btlog --coverage",
-        "explain ::error::e", "::error::e", "--::error::e", "t.xml x ::y",
-        "n.xml --from run.btlog", "batch . --format github"}) {
+        "explain run.btlog", "explain ::error::e", "::error::e", "--::error::e",
+        "t.xml x ::y", "n.xml --from run.btlog", "batch . --format github"}) {
     lines.push_back(words);
   }
   for (const std::string& words : lines) {

@@ -194,6 +194,7 @@ const std::map<std::string_view, std::string> kValues = {
     {"--btlog", "--btlog new.btlog"},
     {"--from", "--from run.itf.json@1"},
     {"--topic", "--topic /behavior_tree_log"},
+    {"--tree", "--tree more.ltl"},
     {"--learn-leaves", "--learn-leaves new.leaves"},
     {"--coverage", "--coverage"},
     {"--jobs", "--jobs 1"},
@@ -259,6 +260,8 @@ constexpr Without kWithout[] = {
     {"lsp", "--stdio", "", "there is no other way"},
     {"conform", "-q", "", "it prints what it has found and nothing else"},
     {"tests", "--tick-ms", "t.xml", "what takes time is left out"},
+    {"explain", "-q", "", "it prints what it has found and nothing else"},
+    {"explain", "--tick-gap", "", "the log has its ticks"},
     {"fmt", "--config --no-config", "", "they leave nothing out here"},
     {"fmt", "--verify", "", "the networks are equal"},
     {"fmt", "--timeout", "", "it is done before a limit is looked at"},
@@ -323,6 +326,8 @@ std::vector<std::string> lines_of(const CommandRow& row,
     case Command::Conform:
       return {"conform run.btlog trees/" + language.tree,
               "conform run.btlog --coverage trees/" + language.tree};
+    case Command::Explain:
+      return {"explain run.btlog --tree trees/" + language.tree};
     default:
       return {line};
   }
@@ -360,7 +365,8 @@ std::string told(const std::string& line, const std::string& option,
                  const Language& language) {
   const TemporaryFolder folder;
   fill(folder.path(), language);
-  if (line.starts_with("conform") || option.starts_with("--from")) {
+  if (line.starts_with("conform") || line.starts_with("explain") ||
+      option.starts_with("--from")) {
     record(folder.path(), language);
   }
   if (option.starts_with("--baseline")) {

@@ -115,6 +115,21 @@ def look_at_leaves(out):
     lines("leaf-answer", (out / "said").read_text(), "leaves say")
 
 
+def look_at_explanations(out):
+    """Runs that ended well, badly and not at all, and a log of another run."""
+    folder = regress / "explain_log"
+    run = out / "run.itf.json"
+    words = ("--tree", "tree.xml", "--leaves", "tree.leaves", "--format", "json")
+    for script in sorted(folder.glob("*.script")):
+        btcheck(folder, "simulate", "tree.xml", "--leaves", "tree.leaves", "--script",
+                script.name, "--ticks", 20, "-o", run)
+        written("run-explanation", btcheck(folder, "explain", run, *words),
+                f"explain {script.name}")
+    for log in sorted(folder.glob("*.btlog")):
+        written("run-explanation", btcheck(folder, "explain", log.name, *words),
+                f"explain {log.name}")
+
+
 def look_at_included(out):
     """A run of a tree in several files has the texts of all."""
     run = out / "included.itf.json"
@@ -262,6 +277,7 @@ with tempfile.TemporaryDirectory() as name:
     look_at_monitors()
     look_at_tests(out)
     look_at_included(out)
+    look_at_explanations(out)
     look_at_library()
     look_at_batches(out)
     look_at_faults(out)

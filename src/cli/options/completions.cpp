@@ -44,7 +44,9 @@ constexpr std::array<Offer, 10> kArguments = {
      {"files '*'", "':run:_files'", " -F"},
      {"files '*'", "'*:log:_files'", " -F"},
      {":", "'*:robot: '", " -x"},
-     {"offer '{words}'", "':code:({words})'", " -a '{words}'"},
+     {"files '*'; local named=(\"${{COMPREPLY[@]}}\"); offer '{words}'; "
+      "COMPREPLY+=(\"${{named[@]}}\")",
+      "':code or log:{{_files; compadd {words}}}'", " -F -a '{words}'"},
      {"offer '{words}'", "':shell:({words})'", " -a '{words}'"}}};
 
 using Shell = std::string_view Offer::*;
@@ -68,10 +70,11 @@ std::string joined(const Rows& rows, Member member) {
 
 std::string offer_for(const CommandRow& command, Shell shell) {
   const Offer& offer = kArguments[static_cast<std::size_t>(command.argument)];
-  return fmt::format(fmt::runtime(offer.*shell),
-                     fmt::arg("words", command.argument == ArgumentKind::Code
-                                           ? joined(all_codes(), &CodeRow::code)
-                                           : "bash zsh fish"));
+  return fmt::format(
+      fmt::runtime(offer.*shell),
+      fmt::arg("words", command.argument == ArgumentKind::CodeOrRun
+                            ? joined(all_codes(), &CodeRow::code)
+                            : "bash zsh fish"));
 }
 
 std::vector<const OptionRow*> options_of(Command command) {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <thread>
 
 #include "cli/options/roots.hpp"
@@ -435,6 +436,8 @@ void settle_tick_gap(const OptionWords& words, Options& options) {
                     "btcheck trace run.csv --tree TREE --to text");
     case Command::Watch:
       return;
+    case Command::Explain:
+      return;
     case Command::Conform:
       if (words.has("--learn-leaves")) return;
       return refuse("--tick-gap needs --learn-leaves",
@@ -469,12 +472,34 @@ void refuse_standard_input(const OptionWords& words, std::ptrdiff_t count) {
   }
 }
 
+// A code is a word; what has a dot or a slash in it, or is there, is a file.
+bool explains_log(const OptionWords& words) {
+  if (words.command != Command::Explain || words.inputs.empty()) return false;
+  const std::string& word = words.inputs[0];
+  std::error_code fault;
+  return code_named(word) == nullptr &&
+         (word.find_first_of("./") != std::string::npos ||
+          std::filesystem::exists(word, fault));
+}
+
+// What goes with a log does not go with a code.
+void settle_explain(const OptionWords& words, const Options& options) {
+  if (words.command != Command::Explain || options.explains_log) return;
+  for (const auto& [name, values] : words.values) {
+    if (name == "--color" || name == "-q") continue;
+    refuse(fmt::format("{} goes with a log", name),
+           "btcheck explain robot.btlog --tree TREE");
+  }
+}
+
 // `-` among the inputs: the tree on standard input.
 void settle_inputs(const OptionWords& words, Options& options) {
   options.inputs = words.inputs;
   const CommandRow& command = row_of(words.command);
-  const bool names_no_file = command.argument == ArgumentKind::Code ||
-                             command.argument == ArgumentKind::Shell;
+  options.explains_log = explains_log(words);
+  const bool names_no_file =
+      (command.command == Command::Explain && !options.explains_log) ||
+      command.argument == ArgumentKind::Shell;
   const auto count = std::ranges::count(words.inputs, "-");
   if (count > 0 && !names_no_file) refuse_standard_input(words, count);
   if (!names_no_file) {
@@ -535,9 +560,12 @@ std::vector<std::string> roots_around(const Options& options) {
   const auto add = [&](const std::string& root) {
     if (std::ranges::count(roots, root) == 0) roots.push_back(root);
   };
-  const bool is_of_robots = options.command == Command::Watch;
-  for (const std::string& input :
-       is_of_robots ? options.properties : options.inputs) {
+  std::vector<std::string> inputs =
+      options.command == Command::Watch ? options.properties : options.inputs;
+  if (options.explains_log && !options.trace.tree.empty()) {
+    inputs.push_back(options.trace.tree);
+  }
+  for (const std::string& input : inputs) {
     const std::size_t end =
         is_folder(input) ? input.size() : input.rfind('/') + 1;
     const std::string folder = end == 0 ? "." : input.substr(0, end);
@@ -710,6 +738,7 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_view(words, options);
   settle_recorded(words, options);
   settle_conform(words, options);
+  settle_explain(words, options);
   settle_formatting(words, options);
   settle_from(words, options);
   settle_topic(words, options);

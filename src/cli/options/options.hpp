@@ -79,7 +79,7 @@ enum class TraceFormat : std::uint8_t {
 struct TraceOptions {
   TraceFormat format = TraceFormat::Text;
   std::optional<int> tick;  // --at, the tick to draw
-  std::string tree;         // --tree, of a trace of LTSmin
+  std::string tree;         // --tree, of a trace of LTSmin, or explain's
 };
 
 // What `simulate` runs without questions. Without a seed and a script, the
@@ -149,8 +149,8 @@ enum class StatisticsFormat : std::uint8_t { Table, Json };
 struct Options {
   std::vector<std::string> words;  // the command line, as it was typed
   Command command = Command::Check;
-  std::string input;                    // a tree, or a file of properties;
-                                        // explain: a code; completions: a shell
+  std::string input;  // a tree, or a file of properties;
+                      // explain: a code or log; completions: a shell
   std::vector<std::string> inputs;      // lint: every tree, `input` the first
   std::vector<std::string> properties;  // --prop
   std::vector<std::string> rules;       // -e
@@ -204,6 +204,7 @@ struct Options {
   std::string topic;    // --topic, of a recording of ROS 2; "": the only one
   std::string learned;  // conform: --learn-leaves; "" for none
   bool tells_coverage = false;  // conform: --coverage
+  bool explains_log = false;    // explain: `input` is a log and no code
   std::string output;           // -o; "" for standard output
   FormattingPlan formatting;
   RobotPlan robots;

@@ -18,15 +18,15 @@ namespace btcheck {
 // The words that follow a command and belong to no option.
 enum class ArgumentKind : std::uint8_t {
   None,
-  Tree,     // one tree, or one property file that names its tree
-  Trees,    // several of them
-  Batches,  // folders and manifests
-  Files,    // trees, rules, contracts and folders
-  Run,      // one run or log
-  Logs,     // logs of one tree, and perhaps the tree
-  Robots,   // addresses of robots
-  Code,     // perhaps the code of a diagnostic
-  Shell     // the name of a shell
+  Tree,       // one tree, or one property file that names its tree
+  Trees,      // several of them
+  Batches,    // folders and manifests
+  Files,      // trees, rules, contracts and folders
+  Run,        // one run or log
+  Logs,       // logs of one tree, and perhaps the tree
+  Robots,     // addresses of robots
+  CodeOrRun,  // perhaps the code of a diagnostic, or one run or log
+  Shell       // the name of a shell
 };
 
 struct CommandRow {

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "btcpp_random/faulty_scripts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "btcpp_random/scripted_run.hpp"
+#include "model/tree_file.hpp"
+#include "reference/random_tree.hpp"
+
+namespace btcheck::reference {
+namespace {
+
+// What a leaf answers, one after the other; the last for ever.
+struct Answers {
+  std::string leaf;
+  std::vector<std::string> words;
+
+  std::string line() const {
+    std::string text = leaf + ":";
+    for (const std::string& word : words) text += " " + word;
+    return text + "\n";
+  }
+};
+
+std::vector<Answers> answers_in(const std::string& script) {
+  std::vector<Answers> all;
+  std::istringstream lines(script);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t colon = line.find(':');
+    Answers& made = all.emplace_back(Answers{line.substr(0, colon), {}});
+    std::istringstream words(line.substr(colon + 1));
+    for (std::string word; words >> word;) {
+      const std::size_t star = word.find('*');
+      const int times =
+          star == word.npos ? 1 : std::stoi(word.substr(star + 1));
+      made.words.insert(made.words.end(), static_cast<std::size_t>(times),
+                        word.substr(0, star));
+    }
+  }
+  return all;
+}
+
+std::string text_of(const std::vector<Answers>& all) {
+  std::string text;
+  for (const Answers& each : all) text += each.line();
+  return text;
+}
+
+bool is_action(const Answers& answers) { return answers.leaf[0] == 'a'; }
+
+// An action that works never fails, and ends.
+void let_work(Answers& answers) {
+  for (std::string& word : answers.words) {
+    if (word == "failure") word = "success";
+  }
+  answers.words.emplace_back("success");
+}
+
+// What a leaf that is said to take two ticks at most takes.
+void let_end_in_time(Answers& answers) {
+  std::vector<std::string> words;
+  int running = 0;
+  for (const std::string& word : answers.words) {
+    running = word == "running" ? running + 1 : 0;
+    if (running <= 2) words.push_back(word);
+  }
+  answers.words = std::move(words);
+}
+
+void let_be_late(Answers& answers) {
+  std::vector<std::string> words;
+  for (const std::string& word : answers.words) {
+    if (word == "running") continue;
+    if (word == "success") words.insert(words.end(), 5, "running");
+    words.push_back(word);
+  }
+  // For ever so.
+  for (int i = 0; i < 8; ++i) {
+    words.insert(words.end(), 5, "running");
+    words.emplace_back("success");
+  }
+  answers.words = std::move(words);
+}
+
+// The fault strikes at the success of this number.
+void put_in(Answers& answers, FaultKind kind, int number) {
+  std::vector<std::string>& words = answers.words;
+  if (kind == FaultKind::Fails) words = {"failure"};
+  int seen = 0;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] != "success") continue;
+    const int here = seen++;
+    switch (kind) {
+      case FaultKind::FailsOn:
+        if (here == number) {
+          words.resize(i);
+          words.emplace_back("failure");
+          return;
+        }
+        break;
+      case FaultKind::FailsOnce:
+        if (here == number) words[i] = "failure";
+        break;
+      case FaultKind::NeverEnds:
+        if (here == number) {
+          words.resize(i);
+          words.emplace_back("running");
+          return;
+        }
+        break;
+      case FaultKind::Throws:
+        if (here == number) words[i] = "throws";
+        break;
+      default:
+        break;
+    }
+  }
+}
+
+void say_duration(std::string& leaves, const std::string& leaf) {
+  const std::size_t begin = leaves.find("(defaction " + leaf + " ");
+  const std::size_t end = leaves.find('\n', begin);
+  leaves.insert(end - 1, " :duration [0,2]");
+}
+
+bool is_determined(const ScriptedTree& made, Profile profile,
+                   const std::string& script, int ticks) {
+  const auto tree =
+      read_tree("t.xml", made.xml, scripted_reading(profile, made.leaves));
+  return tree.value && scripted_run(*tree.value, script, ticks).is_determined;
+}
+
+}  // namespace
+
+std::optional<FaultyScript> random_faulty_script(std::uint64_t seed,
+                                                 Profile profile, int ticks) {
+  constexpr std::array kKinds = {FaultKind::Fails,    FaultKind::FailsOnce,
+                                 FaultKind::FailsOn,  FaultKind::NeverEnds,
+                                 FaultKind::EndsLate, FaultKind::Throws};
+  SplitMix64 random(seed ^ 0x5eed);
+  FaultyScript made{
+      random_scripted_tree(seed, profile, World::Scripted, ticks), "", "", {}};
+  std::vector<Answers> all = answers_in(made.tree.script);
+  std::vector<std::size_t> actions;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!is_action(all[i])) continue;
+    let_work(all[i]);
+    actions.push_back(i);
+  }
+  if (actions.empty()) return std::nullopt;
+  Answers& chosen = all[actions[static_cast<std::size_t>(
+      random.below(static_cast<int>(actions.size())))]];
+  made.leaf = chosen.leaf;
+  made.kind = kKinds[static_cast<std::size_t>(
+      random.below(static_cast<int>(kKinds.size())))];
+  const bool skips =
+      std::ranges::find(chosen.words, "skipped") != chosen.words.end();
+  if (made.kind == FaultKind::EndsLate) {
+    if (skips) return std::nullopt;
+    let_end_in_time(chosen);
+    say_duration(made.tree.leaves, made.leaf);
+  }
+  made.well = text_of(all);
+  if (made.kind == FaultKind::EndsLate) {
+    let_be_late(chosen);
+  } else {
+    put_in(chosen, made.kind, random.below(3));
+  }
+  made.tree.script = text_of(all);
+  if (!is_determined(made.tree, profile, made.well, ticks)) {
+    return std::nullopt;
+  }
+  const bool is_played =
+      made.kind == FaultKind::Throws || made.kind == FaultKind::EndsLate ||
+      is_determined(made.tree, profile, made.tree.script, ticks);
+  if (!is_played) return std::nullopt;
+  return made;
+}
+
+}  // namespace btcheck::reference
