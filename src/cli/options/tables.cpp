@@ -307,253 +307,243 @@ constexpr std::string_view kProfileNames =
     "nav2-galactic nav2-humble nav2-iron nav2-jazzy "
     "nav2-kilted nav2-lyrical nav2-main";
 
-constexpr OptionRow kOptions
-    [] = {{.name = "--prop",
-           .value = "FILE",
-           .names = ValueKind::File,
-           .help = "a file of properties",
-           .commands = {Check, Lint, Export, Trace, Monitor, Run, Watch,
-                        WhatIf},
-           .is_repeatable = true,
-           .first = {Check, Export, Trace, Run, Monitor, Watch, WhatIf},
-           .example = "btcheck TREE --prop RULES.ltl"},
-          {.name = "-e",
-           .value = "RULE",
-           .help =
-               "a rule, as in a file of properties; its name may be left out",
-           .commands = {Check, Lint, Export, Trace, Monitor, Run, Watch,
-                        WhatIf},
-           .is_repeatable = true,
-           .first = {Check, Trace},
-           .example = "btcheck TREE -e 'never land.failure'"},
-          {.name = "--tick",
-           .value = "SEMANTICS",
-           .choices = "root leaves nodes none",
-           .fallback = "what the property file says, else root",
-           .help = "where time passes",
-           .commands = {Check, Batch, Space, Export, Simulate, Demo, Init,
-                        Conform, WhatIf, Explain}},
-          {.name = "--profile",
-           .value = "PROFILE",
-           .choices = kProfileNames,
-           .fallback = "paper for .btf; an XML tree says it",
-           .help = "the engine and version whose nodes the tree has",
-           .commands = kReadsModels,
-           .first = {Check, Batch, Init, Conform},
-           .example = "btcheck TREE.xml --profile nav2-humble"},
-          {.name = "--against",
-           .value = "PROFILE",
-           .choices = kProfileNames,
-           .help =
-               "only what is otherwise under this profile: verdicts, findings, "
-               "and what nodes can do",
-           .commands = {Check},
-           .example =
-               "btcheck TREE.xml --profile nav2-jazzy --against nav2-lyrical"},
-          {.name = "--tick-ms",
-           .value = "MILLISECONDS",
-           .fallback = "100",
-           .help = "how long one tick takes: for rates and durations in time",
-           .commands = kReadsBtf,
-           .example = "btcheck TREE.xml --tick-ms 10"},
-          {.name = "--tick-ms",
-           .value = "MILLISECONDS",
-           .fallback = "100",
-           .help = "how long one tick takes, in a log with --prop or --view",
-           .commands = {Trace, Monitor, Watch},
-           .first = {Monitor},
-           .example =
-               "btcheck trace robot.btlog --prop RULES.ltl --tick-ms 10"},
-          {.name = "--tick-gap",
-           .value = "MILLISECONDS",
-           .fallback = "where ticks begin is not known",
-           .help = "logs without ticks: a pause as long or longer parts two "
-                   "ticks, a "
-                   "shorter one does not",
-           .commands = {Check, Space, Trace, Simulate, Conform, Watch, Explain},
-           .example =
-               "btcheck trace robot.btlog --prop RULES.ltl --tick-gap 5"},
-          {.name = "--models",
-           .value = "FILE",
-           .names = ValueKind::File,
-           .help = "XML trees: a file with TreeNodesModel",
-           .commands = kReadsModels,
-           .is_repeatable = true,
-           .example = "btcheck TREE.xml --models nav2_tree_nodes.xml"},
-          {.name = "--leaves",
-           .value = "FILE",
-           .names = ValueKind::File,
-           .help = "XML trees: a file of leaf contracts",
-           .commands = kReadsModels,
-           .is_repeatable = true,
-           .first = {Check, Batch, Init, Conform},
-           .example = "btcheck TREE.xml --leaves robot.leaves"},
-          {.name = "--main-tree",
-           .value = "ID",
-           .help = "XML trees: the tree that runs",
-           .commands = kReadsTrees,
-           .example = "btcheck TREE.xml --main-tree Patrol"},
-          {.name = "--root",
-           .value = "DIRECTORY",
-           .names = ValueKind::Directory,
-           .fallback = "the repository, that of .git or btcheck.toml",
-           .help =
-               "what trees, rules, settings and links lead to is read in there "
-               "only",
-           .commands = kHasSettings,
-           .is_repeatable = true,
-           .example = "btcheck TREE.xml --root ."},
-          {.name = "--config",
-           .value = "FILE",
-           .names = ValueKind::File,
-           .fallback = "the btcheck.toml next above the tree",
-           .help = "settings: profile, models, levels of findings",
-           .commands = kHasSettings,
-           .example = "btcheck TREE.xml --config robot.toml"},
-          {.name = "--no-config",
-           .help = "look for no btcheck.toml",
-           .commands = kHasSettings,
-           .example = "btcheck TREE.xml --no-config"},
-          {.name = "--loop",
-           .help = "tick the tree again after it has ended",
-           .commands = kReadsBtf,
-           .example = "btcheck TREE.xml --loop"},
-          {.name = "--wake-ups",
-           .help = "XML trees: tick as tickOnce does, not tickExactlyOnce",
-           .commands = {Check, Batch, Lint, Space, Export, Simulate, Init,
-                        Conform, Command::Answer},
-           .example = "btcheck TREE.xml --wake-ups"},
-          {.name = "--from",
-           .value = "RUN[@TICK]",
-           .names = ValueKind::File,
-           .fallback = "the beginning of the tree",
-           .help =
-               "begin where this log or kept run ends, or where its tick does",
-           .commands = {Check, Space, Simulate},
-           .first = {Simulate},
-           .example = "btcheck TREE --from robot.btlog@12"},
-          {.name = "--topic",
-           .value = "NAME",
-           .fallback = "the only one that logs a tree",
-           .help = "the topic that is read of a recording of ROS 2",
-           .commands = {Check, Space, Trace, Simulate, Conform, Explain},
-           .example = "btcheck conform robot.mcap TREE.xml --topic "
-                      "/behavior_tree_log"},
-          {.name = "--assume",
-           .value = "ASSUMPTION",
-           .choices = "actions-end",
-           .fallback = "it may run for ever",
-           .help = "actions-end: an action ticked again and again ends again "
-                   "and again",
-           .commands = {Check, Batch, Export, Demo},
-           .is_repeatable = true,
-           .also = "; property files may have `assume` lines"},
-          {.name = "--search",
-           .value = "ORDER",
-           .choices = "bfs dfs",
-           .fallback = "bfs",
-           .help = "bfs: shortest runs; dfs: deep first",
-           .commands = kSearches},
-          {.name = "--reduce",
-           .value = "REDUCTION",
-           .choices = "none live full",
-           .fallback = "full; space: none",
-           .help =
-               "none: every interleaving and every value; live: values that "
-               "nothing reads any more count as one; full: independent steps "
-               "are "
-               "not interleaved either",
-           .commands = kSearches},
-          {.name = "--threads",
-           .value = "NUMBER",
-           .fallback = "one for each core",
-           .help = "how many threads search",
-           .commands = {Check, Batch, Space, Demo, Init, Command::Answer,
-                        WhatIf, Explain}},
-          {.name = "--store",
-           .value = "STORE",
-           .choices = "exact compressed",
-           .fallback = "compressed",
-           .help =
-               "exact: states as pairs of halves; compressed: the same in half "
-               "the memory",
-           .commands = {Space},
-           .example = "btcheck space TREE --store exact"},
-          {.name = "--max-states",
-           .value = "NUMBER",
-           .fallback = "no limit",
-           .help = "stop after about this many states",
-           .commands = kCountsStates,
-           .first = {Space}},
-          {.name = "--memory",
-           .value = "SIZE",
-           .fallback = "three quarters of what there is",
-           .help = "stop at this much memory, e.g. 4G",
-           .commands = kLimited,
-           .first = {Space}},
-          {.name = "--on-disk",
-           .value = "DIRECTORY",
-           .names = ValueKind::Directory,
-           .fallback = "stop there",
-           .help =
-               "at the limit of --memory, go on in this directory: space, and "
-               "rules about single states",
-           .commands = kSearches},
-          {.name = "--timeout",
-           .value = "SECONDS",
-           .fallback = "never",
-           .help = "stop after this many seconds",
-           .commands = kLimited,
-           .first = {Check, Batch, Space, Watch}},
-          {.name = "--watch",
-           .help = "check again whenever a file is saved, until Ctrl-C",
-           .commands = {Check, Batch},
-           .first = {Check},
-           .example = "btcheck --watch FOLDER"},
-          {.name = "--format",
-           .value = "FORMAT",
-           .names = ValueKind::Target,
-           .choices = "text json jsonl sarif junit github gitlab",
-           .fallback = "text",
-           .help = "how results are written",
-           .commands = {Check, Batch},
-           .is_repeatable = true,
-           .first = {Check, Batch},
-           .example = "btcheck TREE --format json"},
-          {.name = "--format",
-           .value = "FORMAT",
-           .names = ValueKind::Target,
-           .choices = "text json sarif github gitlab",
-           .fallback = "text",
-           .help = "how findings are written",
-           .commands = {Lint},
-           .is_repeatable = true,
-           .first = {Lint}},
-          {.name = "--format",
-           .value = "FORMAT",
-           .names = ValueKind::Target,
-           .choices = "text json csv html dot svg opsa",
-           .fallback = "text",
-           .help = "how faults are told: text, JSON, a sheet for the risk "
-                   "assessment, a page with all runs, and fault trees in "
-                   "Graphviz's "
-                   "language, as a picture or for Open-PSA",
-           .commands = {WhatIf},
-           .is_repeatable = true,
-           .first = {WhatIf},
-           .example = "btcheck whatif TREE --format html=faults.html"},
-          .choices = "text json",
-          .fallback = "text",
-          .help = "how the explanation is written",
-          .commands = {Explain},
-          .is_repeatable = true,
-          .example = "btcheck explain robot.btlog --format json"},
+constexpr OptionRow kOptions[] = {
+    {.name = "--prop",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .help = "a file of properties",
+     .commands = {Check, Lint, Export, Trace, Monitor, Run, Watch, WhatIf},
+     .is_repeatable = true,
+     .first = {Check, Export, Trace, Run, Monitor, Watch, WhatIf},
+     .example = "btcheck TREE --prop RULES.ltl"},
+    {.name = "-e",
+     .value = "RULE",
+     .help = "a rule, as in a file of properties; its name may be left out",
+     .commands = {Check, Lint, Export, Trace, Monitor, Run, Watch, WhatIf},
+     .is_repeatable = true,
+     .first = {Check, Trace},
+     .example = "btcheck TREE -e 'never land.failure'"},
+    {.name = "--tick",
+     .value = "SEMANTICS",
+     .choices = "root leaves nodes none",
+     .fallback = "what the property file says, else root",
+     .help = "where time passes",
+     .commands = {Check, Batch, Space, Export, Simulate, Demo, Init, Conform,
+                  WhatIf, Explain}},
+    {.name = "--profile",
+     .value = "PROFILE",
+     .choices = kProfileNames,
+     .fallback = "paper for .btf; an XML tree says it",
+     .help = "the engine and version whose nodes the tree has",
+     .commands = kReadsModels,
+     .first = {Check, Batch, Init, Conform},
+     .example = "btcheck TREE.xml --profile nav2-humble"},
+    {.name = "--against",
+     .value = "PROFILE",
+     .choices = kProfileNames,
+     .help = "only what is otherwise under this profile: verdicts, findings, "
+             "and what nodes can do",
+     .commands = {Check},
+     .example = "btcheck TREE.xml --profile nav2-jazzy --against nav2-lyrical"},
+    {.name = "--tick-ms",
+     .value = "MILLISECONDS",
+     .fallback = "100",
+     .help = "how long one tick takes: for rates and durations in time",
+     .commands = kReadsBtf,
+     .example = "btcheck TREE.xml --tick-ms 10"},
+    {.name = "--tick-ms",
+     .value = "MILLISECONDS",
+     .fallback = "100",
+     .help = "how long one tick takes, in a log with --prop or --view",
+     .commands = {Trace, Monitor, Watch},
+     .first = {Monitor},
+     .example = "btcheck trace robot.btlog --prop RULES.ltl --tick-ms 10"},
+    {.name = "--tick-gap",
+     .value = "MILLISECONDS",
+     .fallback = "where ticks begin is not known",
+     .help = "logs without ticks: a pause as long or longer parts two "
+             "ticks, a "
+             "shorter one does not",
+     .commands = {Check, Space, Trace, Simulate, Conform, Watch, Explain},
+     .example = "btcheck trace robot.btlog --prop RULES.ltl --tick-gap 5"},
+    {.name = "--models",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .help = "XML trees: a file with TreeNodesModel",
+     .commands = kReadsModels,
+     .is_repeatable = true,
+     .example = "btcheck TREE.xml --models nav2_tree_nodes.xml"},
+    {.name = "--leaves",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .help = "XML trees: a file of leaf contracts",
+     .commands = kReadsModels,
+     .is_repeatable = true,
+     .first = {Check, Batch, Init, Conform},
+     .example = "btcheck TREE.xml --leaves robot.leaves"},
+    {.name = "--main-tree",
+     .value = "ID",
+     .help = "XML trees: the tree that runs",
+     .commands = kReadsTrees,
+     .example = "btcheck TREE.xml --main-tree Patrol"},
+    {.name = "--root",
+     .value = "DIRECTORY",
+     .names = ValueKind::Directory,
+     .fallback = "the repository, that of .git or btcheck.toml",
+     .help = "what trees, rules, settings and links lead to is read in there "
+             "only",
+     .commands = kHasSettings,
+     .is_repeatable = true,
+     .example = "btcheck TREE.xml --root ."},
+    {.name = "--config",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .fallback = "the btcheck.toml next above the tree",
+     .help = "settings: profile, models, levels of findings",
+     .commands = kHasSettings,
+     .example = "btcheck TREE.xml --config robot.toml"},
+    {.name = "--no-config",
+     .help = "look for no btcheck.toml",
+     .commands = kHasSettings,
+     .example = "btcheck TREE.xml --no-config"},
+    {.name = "--loop",
+     .help = "tick the tree again after it has ended",
+     .commands = kReadsBtf,
+     .example = "btcheck TREE.xml --loop"},
+    {.name = "--wake-ups",
+     .help = "XML trees: tick as tickOnce does, not tickExactlyOnce",
+     .commands = {Check, Batch, Lint, Space, Export, Simulate, Init, Conform,
+                  Command::Answer},
+     .example = "btcheck TREE.xml --wake-ups"},
+    {.name = "--from",
+     .value = "RUN[@TICK]",
+     .names = ValueKind::File,
+     .fallback = "the beginning of the tree",
+     .help = "begin where this log or kept run ends, or where its tick does",
+     .commands = {Check, Space, Simulate},
+     .first = {Simulate},
+     .example = "btcheck TREE --from robot.btlog@12"},
+    {.name = "--topic",
+     .value = "NAME",
+     .fallback = "the only one that logs a tree",
+     .help = "the topic that is read of a recording of ROS 2",
+     .commands = {Check, Space, Trace, Simulate, Conform, Explain},
+     .example = "btcheck conform robot.mcap TREE.xml --topic "
+                "/behavior_tree_log"},
+    {.name = "--assume",
+     .value = "ASSUMPTION",
+     .choices = "actions-end",
+     .fallback = "it may run for ever",
+     .help = "actions-end: an action ticked again and again ends again "
+             "and again",
+     .commands = {Check, Batch, Export, Demo},
+     .is_repeatable = true,
+     .also = "; property files may have `assume` lines"},
+    {.name = "--search",
+     .value = "ORDER",
+     .choices = "bfs dfs",
+     .fallback = "bfs",
+     .help = "bfs: shortest runs; dfs: deep first",
+     .commands = kSearches},
+    {.name = "--reduce",
+     .value = "REDUCTION",
+     .choices = "none live full",
+     .fallback = "full; space: none",
+     .help = "none: every interleaving and every value; live: values that "
+             "nothing reads any more count as one; full: independent steps "
+             "are "
+             "not interleaved either",
+     .commands = kSearches},
+    {.name = "--threads",
+     .value = "NUMBER",
+     .fallback = "one for each core",
+     .help = "how many threads search",
+     .commands = {Check, Batch, Space, Demo, Init, Command::Answer, WhatIf,
+                  Explain}},
+    {.name = "--store",
+     .value = "STORE",
+     .choices = "exact compressed",
+     .fallback = "compressed",
+     .help = "exact: states as pairs of halves; compressed: the same in half "
+             "the memory",
+     .commands = {Space},
+     .example = "btcheck space TREE --store exact"},
+    {.name = "--max-states",
+     .value = "NUMBER",
+     .fallback = "no limit",
+     .help = "stop after about this many states",
+     .commands = kCountsStates,
+     .first = {Space}},
+    {.name = "--memory",
+     .value = "SIZE",
+     .fallback = "three quarters of what there is",
+     .help = "stop at this much memory, e.g. 4G",
+     .commands = kLimited,
+     .first = {Space}},
+    {.name = "--on-disk",
+     .value = "DIRECTORY",
+     .names = ValueKind::Directory,
+     .fallback = "stop there",
+     .help = "at the limit of --memory, go on in this directory: space, and "
+             "rules about single states",
+     .commands = kSearches},
+    {.name = "--timeout",
+     .value = "SECONDS",
+     .fallback = "never",
+     .help = "stop after this many seconds",
+     .commands = kLimited,
+     .first = {Check, Batch, Space, Watch}},
+    {.name = "--watch",
+     .help = "check again whenever a file is saved, until Ctrl-C",
+     .commands = {Check, Batch},
+     .first = {Check},
+     .example = "btcheck --watch FOLDER"},
+    {.name = "--format",
+     .value = "FORMAT",
+     .names = ValueKind::Target,
+     .choices = "text json jsonl sarif junit github gitlab",
+     .fallback = "text",
+     .help = "how results are written",
+     .commands = {Check, Batch},
+     .is_repeatable = true,
+     .first = {Check, Batch},
+     .example = "btcheck TREE --format json"},
+    {.name = "--format",
+     .value = "FORMAT",
+     .names = ValueKind::Target,
+     .choices = "text json sarif github gitlab",
+     .fallback = "text",
+     .help = "how findings are written",
+     .commands = {Lint},
+     .is_repeatable = true,
+     .first = {Lint}},
+    {.name = "--format",
+     .value = "FORMAT",
+     .names = ValueKind::Target,
+     .choices = "text json csv html dot svg opsa",
+     .fallback = "text",
+     .help = "how faults are told: text, JSON, a sheet for the risk "
+             "assessment, a page with all runs, and fault trees in "
+             "Graphviz's "
+             "language, as a picture or for Open-PSA",
+     .commands = {WhatIf},
+     .is_repeatable = true,
+     .first = {WhatIf},
+     .example = "btcheck whatif TREE --format html=faults.html"},
+    {.name = "--format",
+     .value = "FORMAT",
+     .names = ValueKind::Target,
+     .choices = "text json",
+     .fallback = "text",
+     .help = "how the explanation is written",
+     .commands = {Explain},
+     .is_repeatable = true,
+     .example = "btcheck explain robot.btlog --format json"},
     {.name = "--deny",
      .value = "CODE",
      .fallback = "none",
-     .help =
-         "take findings of this code for errors, exit code 1; `warnings` "
-         "for all of them",
+     .help = "take findings of this code for errors, exit code 1; `warnings` "
+             "for all of them",
      .commands = kFinds,
      .is_repeatable = true,
      .first = {Batch, Lint},
@@ -563,36 +553,30 @@ constexpr OptionRow kOptions
      .commands = {Check, Batch}},
     {.name = "--baseline",
      .value = "FILE",
-     .names =
-         ValueKind::File,
+     .names = ValueKind::File,
      .help = "leave out the findings that this file has",
      .commands = kFinds,
      .first = {Batch},
      .example = "btcheck TREE --baseline baseline.json"},
     {.name = "--write-baseline",
      .value = "FILE",
-     .names =
-         ValueKind::File,
+     .names = ValueKind::File,
      .help = "write the findings of now to this file",
      .commands = kFinds,
      .example = "btcheck TREE --write-baseline baseline.json"},
     {.name = "--trace-dir",
      .value = "DIRECTORY",
-     .names =
-         ValueKind::Directory,
-     .help =
-         "write the run of each finding and each rule to this directory, "
-         "as ITF JSON and as a page for a browser",
+     .names = ValueKind::Directory,
+     .help = "write the run of each finding and each rule to this directory, "
+             "as ITF JSON and as a page for a browser",
      .commands = {Check, Batch, Demo, Trace},
      .first = {Check, Batch, Demo},
      .example = "btcheck TREE --prop RULES.ltl --trace-dir runs"},
     {.name = "--trace-dir",
      .value = "DIRECTORY",
-     .names =
-         ValueKind::Directory,
-     .help =
-         "write the run of each fault that strikes to this directory, as "
-         "ITF JSON and as a page for a browser",
+     .names = ValueKind::Directory,
+     .help = "write the run of each fault that strikes to this directory, as "
+             "ITF JSON and as a page for a browser",
      .commands = {WhatIf},
      .example = "btcheck whatif TREE --trace-dir runs"},
     {.name = "--stats",
@@ -604,8 +588,7 @@ constexpr OptionRow kOptions
      .example = "btcheck space TREE --stats json"},
     {.name = "--export",
      .value = "GRAPH",
-     .names =
-         ValueKind::Target,
+     .names = ValueKind::Target,
      .choices = "aut dot",
      .help = "the states and steps of a small space",
      .commands = {Space},
@@ -613,15 +596,13 @@ constexpr OptionRow kOptions
      .example = "btcheck space TREE --export aut"},
     {.name = "--to",
      .value = "FORMAT",
-     .choices =
-         "dot svg mermaid automata promela smv fiacre hfiacre xml btf "
-         "monitor monitor-cpp ltsmin",
-     .help =
-         "the tree as a drawing (dot, svg, mermaid), its automata in "
-         "Graphviz's language, a model with the rules of --prop, the "
-         "tree in the other language, the rules as a table for "
-         "btcheck::observer or as a header in C++, or the command lines "
-         "of LTSmin",
+     .choices = "dot svg mermaid automata promela smv fiacre hfiacre xml btf "
+                "monitor monitor-cpp ltsmin",
+     .help = "the tree as a drawing (dot, svg, mermaid), its automata in "
+             "Graphviz's language, a model with the rules of --prop, the "
+             "tree in the other language, the rules as a table for "
+             "btcheck::observer or as a header in C++, or the command lines "
+             "of LTSmin",
      .commands = {Export},
      .is_required = true,
      .first = {Export},
@@ -631,14 +612,12 @@ constexpr OptionRow kOptions
      .fallback = "btcheck_monitor",
      .help = "the C++ namespace of --to monitor-cpp",
      .commands = {Export},
-     .example =
-         "btcheck export TREE --prop RULES.ltl --to monitor-cpp "
-         "--namespace robot::rules"},
+     .example = "btcheck export TREE --prop RULES.ltl --to monitor-cpp "
+                "--namespace robot::rules"},
     {.name = "--to",
      .value = "FORMAT",
-     .choices =
-         "text html itf svg strip dot mermaid btlog chrome chrome-stack "
-         "mcap substitution",
+     .choices = "text html itf svg strip dot mermaid btlog chrome chrome-stack "
+                "mcap substitution",
      .help = "what the run is converted to",
      .commands = {Trace},
      .is_required = true,
@@ -697,9 +676,8 @@ constexpr OptionRow kOptions
     {.name = "-o",
      .value = "FILE",
      .names = ValueKind::File,
-     .help =
-         "keep what is recorded in this file, as a log for Groot2; the "
-         "next recording, after a new start of the program, in FILE-2",
+     .help = "keep what is recorded in this file, as a log for Groot2; the "
+             "next recording, after a new start of the program, in FILE-2",
      .commands = {Watch},
      .first = {Watch},
      .example = "btcheck watch groot2://robot -o robot.btlog"},
@@ -752,9 +730,8 @@ constexpr OptionRow kOptions
      .example = "btcheck run TREE --leaves-exec 'python3 leaves.py'"},
     {.name = "--seed",
      .value = "NUMBER",
-     .help =
-         "leaves that answer at random, the same for the same number; with "
-         "--leaves-exec, a number that the process is told",
+     .help = "leaves that answer at random, the same for the same number; with "
+             "--leaves-exec, a number that the process is told",
      .commands = {Run},
      .example = "btcheck run TREE --seed 7"},
     {.name = "--ticks",
@@ -778,9 +755,8 @@ constexpr OptionRow kOptions
      .value = "POLICY",
      .choices = "stop fail go-on",
      .fallback = "stop",
-     .help =
-         "after an answer that the model does not allow: stop; the leaf "
-         "fails; or it goes on, where the model lets it",
+     .help = "after an answer that the model does not allow: stop; the leaf "
+             "fails; or it goes on, where the model lets it",
      .commands = {Run},
      .example = "btcheck run TREE --leaves-exec ./leaves --on-breach fail"},
     {.name = "--btlog",
@@ -792,9 +768,8 @@ constexpr OptionRow kOptions
     {.name = "--view",
      .value = "PORT",
      .fallback = "any port that is free",
-     .help =
-         "show the run while it goes on, to the browsers of this machine; "
-         "the address is printed",
+     .help = "show the run while it goes on, to the browsers of this machine; "
+             "the address is printed",
      .commands = {Run},
      .may_stand_alone = true,
      .first = {Run},
@@ -802,9 +777,8 @@ constexpr OptionRow kOptions
     {.name = "--view",
      .value = "PORT",
      .fallback = "any port that is free",
-     .help =
-         "show a log while it is written, to the browsers of this machine; "
-         "the address is printed",
+     .help = "show a log while it is written, to the browsers of this machine; "
+             "the address is printed",
      .commands = {Trace},
      .may_stand_alone = true,
      .first = {Trace},
@@ -812,33 +786,29 @@ constexpr OptionRow kOptions
     {.name = "--view",
      .value = "PORT",
      .fallback = "any port that is free",
-     .help =
-         "with --watch: show the run of what is wrong to the browsers of "
-         "this machine; the address is printed",
+     .help = "with --watch: show the run of what is wrong to the browsers of "
+             "this machine; the address is printed",
      .commands = {Check, Batch},
      .may_stand_alone = true,
      .example = "btcheck --watch FOLDER --view"},
     {.name = "--view",
      .value = "PORT",
      .fallback = "any port that is free",
-     .help =
-         "show the robots while they run, to the browsers of this machine; "
-         "the address is printed",
+     .help = "show the robots while they run, to the browsers of this machine; "
+             "the address is printed",
      .commands = {Watch},
      .may_stand_alone = true,
      .first = {Watch},
      .example = "btcheck watch groot2://robot --view"},
     {.name = "--inject",
      .value = "FAULT",
-     .help =
-         "have a node answer instead of what it does, for a test: `NODE "
-         "fails` or `succeeds`, then `once` (the default) or `always`, "
-         "then `from tick N`",
+     .help = "have a node answer instead of what it does, for a test: `NODE "
+             "fails` or `succeeds`, then `once` (the default) or `always`, "
+             "then `from tick N`",
      .commands = {Watch},
      .is_repeatable = true,
-     .example =
-         "btcheck watch groot2://robot --inject 'dock fails' "
-         "--allow-inject"},
+     .example = "btcheck watch groot2://robot --inject 'dock fails' "
+                "--allow-inject"},
     {.name = "--break",
      .value = "NODE",
      .help = "stop the tree where this node is about to be ticked, until Enter",
@@ -850,15 +820,13 @@ constexpr OptionRow kOptions
      .fallback = "until Enter",
      .help = "with --break: how long the tree stops",
      .commands = {Watch},
-     .example =
-         "btcheck watch groot2://robot --break dock --break-for 500 "
-         "--allow-inject"},
+     .example = "btcheck watch groot2://robot --break dock --break-for 500 "
+                "--allow-inject"},
     {.name = "--allow-inject",
      .help = "allow --inject and --break: the robot does what it would not",
      .commands = {Watch},
-     .example =
-         "btcheck watch groot2://robot --inject 'dock fails' "
-         "--allow-inject"},
+     .example = "btcheck watch groot2://robot --inject 'dock fails' "
+                "--allow-inject"},
     {.name = "--learn-leaves",
      .value = "FILE",
      .names = ValueKind::File,
@@ -899,40 +867,35 @@ constexpr OptionRow kOptions
      .commands = {Batch},
      .example = "btcheck batch FOLDER --fail-fast"},
     {.name = "--resume",
-     .help =
-         "take results of an earlier run where nothing has changed; with "
-         "--results, retry what has failed there",
+     .help = "take results of an earlier run where nothing has changed; with "
+             "--results, retry what has failed there",
      .commands = {Batch},
      .first = {Batch},
      .example = "btcheck batch FOLDER --resume"},
     {.name = "--results",
      .value = "DIRECTORY",
      .names = ValueKind::Directory,
-     .help =
-         "keep each result as a file in this directory, and share the work "
-         "with all who do the same, on any machine",
+     .help = "keep each result as a file in this directory, and share the work "
+             "with all who do the same, on any machine",
      .commands = {Batch},
      .example = "btcheck batch FOLDER --results /mnt/results"},
     {.name = "--no-wait",
-     .help =
-         "with --results: end when there is nothing left to begin, though "
-         "others are seen at work",
+     .help = "with --results: end when there is nothing left to begin, though "
+             "others are seen at work",
      .commands = {Batch},
      .example = "btcheck batch FOLDER --results DIRECTORY --no-wait"},
     {.name = "--lease",
      .value = "SECONDS",
      .fallback = "60",
-     .help =
-         "with --results: take over the work of who has shown no sign of "
-         "life for so long",
+     .help = "with --results: take over the work of who has shown no sign of "
+             "life for so long",
      .commands = {Batch},
      .example = "btcheck batch FOLDER --results DIRECTORY --lease 300"},
     {.name = "--join",
      .value = "DIRECTORY",
      .names = ValueKind::Directory,
-     .help =
-         "report what --results has left in this directory, and check "
-         "nothing",
+     .help = "report what --results has left in this directory, and check "
+             "nothing",
      .commands = {Batch},
      .example = "btcheck batch FOLDER --join /mnt/results"},
     {.name = "--report",
@@ -943,9 +906,8 @@ constexpr OptionRow kOptions
      .first = {Batch},
      .example = "btcheck batch FOLDER --report report.html"},
     {.name = "--check",
-     .help =
-         "change nothing: list the files that are in another style, exit "
-         "code 1",
+     .help = "change nothing: list the files that are in another style, exit "
+             "code 1",
      .commands = {Fmt},
      .first = {Fmt},
      .example = "btcheck fmt --check FOLDER"},
@@ -955,17 +917,15 @@ constexpr OptionRow kOptions
      .first = {Fmt},
      .example = "btcheck fmt --diff FILE"},
     {.name = "--verify",
-     .help =
-         "read and lower each tree before and after, and leave it as it is "
-         "unless the networks are equal",
+     .help = "read and lower each tree before and after, and leave it as it is "
+             "unless the networks are equal",
      .commands = {Fmt},
      .first = {Fmt},
      .example = "btcheck fmt --verify FOLDER"},
     {.name = "--stdin-name",
      .value = "NAME",
-     .help =
-         "what the file on standard input is called: its ending says of "
-         "which kind it is",
+     .help = "what the file on standard input is called: its ending says of "
+             "which kind it is",
      .commands = {Fmt},
      .first = {Fmt},
      .example = "btcheck fmt - --stdin-name TREE.xml <FILE >FORMATTED"},
@@ -973,17 +933,15 @@ constexpr OptionRow kOptions
      .value = "NUMBER",
      .choices = "1 2",
      .fallback = "1",
-     .help =
-         "how many faults at once: 2 for pairs as well, where both can "
-         "strike",
+     .help = "how many faults at once: 2 for pairs as well, where both can "
+             "strike",
      .commands = {WhatIf},
      .first = {WhatIf},
      .example = "btcheck whatif TREE --order 2"},
     {.name = "--faults",
      .value = "KIND",
-     .choices =
-         "fails fails-once fails-for-ever says-yes never-ends late "
-         "inverted flips-once halted writes-nothing writes-other throws",
+     .choices = "fails fails-once fails-for-ever says-yes never-ends late "
+                "inverted flips-once halted writes-nothing writes-other throws",
      .fallback = "all",
      .help = "faults of this kind only",
      .commands = {WhatIf},
@@ -1005,18 +963,16 @@ constexpr OptionRow kOptions
      .value = "HOW",
      .choices = "work contract",
      .fallback = "work",
-     .help =
-         "what the leaves without a fault do: work, actions succeed and "
-         "conditions answer either way; contract, all that their contracts "
-         "allow",
+     .help = "what the leaves without a fault do: work, actions succeed and "
+             "conditions answer either way; contract, all that their contracts "
+             "allow",
      .commands = {WhatIf},
      .example = "btcheck whatif TREE --others contract"},
     {.name = "--against",
      .value = "FILE",
      .names = ValueKind::File,
-     .help =
-         "exit code 1 only for faults that are worse than in this result, "
-         "kept by --format json",
+     .help = "exit code 1 only for faults that are worse than in this result, "
+             "kept by --format json",
      .commands = {WhatIf},
      .first = {WhatIf},
      .example = "btcheck whatif TREE --against faults.json"},
@@ -1038,16 +994,13 @@ constexpr OptionRow kOptions
      .help = "name the btcheck.toml that is used",
      .commands = {Lint, Space, Export, Simulate, Conform, Run, Explain}},
     {.name = "--help",
-     .help =
-         "a screen of help; COMMAND --help: of one command; --help all: "
-         "every option",
+     .help = "a screen of help; COMMAND --help: of one command; --help all: "
+             "every option",
      .commands = kEvery},
-    {.name = "--version", .help = "print the version", .commands = kEvery}, {
-  .name = "--licenses",
-  .help = "print the licences of btcheck and of what it is linked with",
-  .commands = kEvery
-}
-};
+    {.name = "--version", .help = "print the version", .commands = kEvery},
+    {.name = "--licenses",
+     .help = "print the licences of btcheck and of what it is linked with",
+     .commands = kEvery}};
 
 }  // namespace
 

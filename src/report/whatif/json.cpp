@@ -106,7 +106,7 @@ class Document {
 
   Json left_out() const {
     Json all = Json::array();
-    for (const LeftOut& each : result_.possible.left_out) {
+    for (const OmittedFaults& each : result_.possible.left_out) {
       all.push(Json{{"why", each.why},
                     {"leaves", names(each.leaves)},
                     {"faults", kinds(each.kinds)}});

@@ -85,7 +85,7 @@ class HtmlPage {
           paragraph(fmt::format("Taken for conditions, by their names: {}.",
                                 names_in_text(tree_, guessed, guessed.size())));
     }
-    for (const LeftOut& each : result_.possible.left_out) {
+    for (const OmittedFaults& each : result_.possible.left_out) {
       text += paragraph(fmt::format(
           "Left out, as {}: {} of {}.", each.why, kind_words(each.kinds),
           names_in_text(tree_, each.leaves, each.leaves.size())));

@@ -77,7 +77,7 @@ class Table {
     if (left_out.empty()) return;
     if (!choices_.tells_all) {
       std::vector<NodeId> leaves;
-      for (const LeftOut& each : left_out) {
+      for (const OmittedFaults& each : left_out) {
         for (const NodeId leaf : each.leaves) {
           if (std::ranges::find(leaves, leaf) == leaves.end()) {
             leaves.push_back(leaf);
@@ -90,7 +90,7 @@ class Table {
                       counted(leaves.size(), "leaf", "leaves")));
       return;
     }
-    for (const LeftOut& each : left_out) {
+    for (const OmittedFaults& each : left_out) {
       add(fmt::format("Left out, as {}: {} of {}.", each.why,
                       kind_words(each.kinds),
                       names_in_text(tree_, each.leaves, each.leaves.size())));
