@@ -40,6 +40,7 @@ std::string one_text(const BtcppDocument& document, const BehaviorTree& tree) {
   std::string trees;
   std::string models;
   std::set<std::string> known;
+  bool has_main = false;
   for (const InputFile& file : document.files) {
     const auto parsed = file.text.parsed<ParsedXml>();
     if (!parsed->value) continue;
@@ -51,10 +52,12 @@ std::string one_text(const BtcppDocument& document, const BehaviorTree& tree) {
     };
     for (const std::size_t child : elements[0].children) {
       const XmlElement& element = elements[child];
-      if (element.name == "BehaviorTree" &&
-          used.contains(element.value_or_empty("ID"))) {
-        take(element, trees);
-      }
+      const std::string* id = element.value("ID");
+      has_main = has_main || (id != nullptr && *id == main);
+      // One without an ID has been given a name by the reader.
+      const bool is_used = id != nullptr ? used.contains(*id)
+                                         : main.starts_with("BehaviorTree_");
+      if (element.name == "BehaviorTree" && is_used) take(element, trees);
       if (element.name != "TreeNodesModel") continue;
       for (const std::size_t model : element.children) {
         if (elements[model].name == "SubTree") take(elements[model], models);
@@ -65,8 +68,10 @@ std::string one_text(const BtcppDocument& document, const BehaviorTree& tree) {
     models = fmt::format("  <TreeNodesModel>\n{}  </TreeNodesModel>\n", models);
   }
   const bool is_4 = document.release == BtcppRelease::V4;
-  return fmt::format("<root{} main_tree_to_execute=\"{}\">\n{}{}</root>\n",
-                     is_4 ? " BTCPP_format=\"4\"" : "", main, trees, models);
+  return fmt::format(
+      "<root{}{}>\n{}{}</root>\n", is_4 ? " BTCPP_format=\"4\"" : "",
+      has_main ? fmt::format(" main_tree_to_execute=\"{}\"", main) : "", trees,
+      models);
 }
 
 std::string_view plain_type(std::string_view type) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "model/tree/node_types.hpp"
 #include "suites/formats.hpp"
 #include "suites/runner.hpp"
 #include "text/utf8.hpp"

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
 #include <set>
 #include <string>
 
@@ -103,8 +102,9 @@ class Namer {
   // How it ends: what the last leaf of the last tick answered.
   std::string end_of(const SuiteTest& test) const {
     if (test.ticks.empty()) return {};
-    for (const auto& [node, answers] :
-         std::views::reverse(test.ticks.back().nodes)) {
+    const auto& nodes = test.ticks.back().nodes;
+    for (auto at = nodes.rbegin(); at != nodes.rend(); ++at) {
+      const auto& [node, answers] = *at;
       if (!is_scripted(tree_.node(node).type)) continue;
       const std::string last = answers.substr(answers.rfind(',') + 1);
       const auto verb = std::ranges::find(kVerbs, last, &Verb::word);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "check/simulate/course.hpp"
+#include "model/tree/node_types.hpp"
 #include "suites/formats.hpp"
 #include "text/json.hpp"
 #include "trace/formats/text.hpp"

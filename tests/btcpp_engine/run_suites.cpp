@@ -5,8 +5,9 @@
 //   run_suites [-v] SUITE.tests.jsonl...
 // Writes a line for each: of how many bytes it is, how many tests pass, and how
 // many of the answers and halts that the suite reaches the engine has reached.
-// With -v, what each test that fails expected and found. Exit code 1 where one
-// fails.
+// With -v, what each test that fails expected and found. A tree that the engine
+// does not load, for nodes that nobody has registered, is not run. Exit code 1
+// where a test fails.
 #if defined(SUITE_RELEASE_3)
 #define BTCHECK_SUITE_RELEASE 3
 #endif
@@ -28,6 +29,8 @@ using btcheck::suite::Tree;
 using nlohmann::json;
 
 struct Outcome {
+  std::string
+      refusal;  // why the engine does not load the tree: "" where it does
   int tests = 0;
   int failed = 0;
   std::size_t reached = 0;
@@ -120,6 +123,12 @@ Outcome outcome_of(const std::string& file, bool is_verbose) {
   Outcome outcome;
   outcome.proven = suite["proven"];
   btcheck::suite::reached().clear();
+  try {
+    const ScriptedRun trial(tree);
+  } catch (const std::exception& refusal) {
+    outcome.refusal = refusal.what();
+    return outcome;
+  }
   while (std::getline(in, text)) {
     const json test = json::parse(text);
     ++outcome.tests;
@@ -156,6 +165,7 @@ int main(int count, char** words) {
   bool is_failed = false;
   Outcome all;
   int suites = 0;
+  int refused = 0;
   for (int i = 1; i < count; ++i) {
     const std::string word = words[i];
     if (word == "-v") {
@@ -163,6 +173,11 @@ int main(int count, char** words) {
       continue;
     }
     const Outcome one = outcome_of(word, is_verbose);
+    if (!one.refusal.empty()) {
+      std::cout << word << ": not run: " << one.refusal << '\n';
+      ++refused;
+      continue;
+    }
     std::cout << word << " (" << std::filesystem::file_size(word)
               << " bytes): " << one.tests - one.failed << " of " << one.tests
               << " tests pass, " << one.reached << " of " << one.reachable
@@ -179,6 +194,6 @@ int main(int count, char** words) {
   std::cout << suites << " suites, " << all.tests << " tests, " << all.failed
             << " fail; " << all.reached << " of " << all.reachable
             << " answers and halts reached on the engine, " << all.proven
-            << " proven\n";
+            << " proven; " << refused << " suites not run\n";
   return is_failed ? 1 : 0;
 }

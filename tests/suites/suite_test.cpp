@@ -131,6 +131,26 @@ TEST_CASE("a run that is asked for is told with what it is about") {
   CHECK(suite.tests[0].ticks.back().root == "failure");
 }
 
+TEST_CASE("the tree is told with what it uses, and no more") {
+  const std::string two =
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Other\"><Gone/>"
+      "</BehaviorTree><BehaviorTree ID=\"Sub\"><Act/></BehaviorTree>"
+      "<BehaviorTree ID=\"Main\"><SubTree ID=\"Sub\"/></BehaviorTree></root>";
+  TreeInput input = input_of(two);
+  input.reading.main_tree = "Main";
+  const MadeSuite made(input);
+  CHECK(made.described.xml ==
+        "<root BTCPP_format=\"4\" main_tree_to_execute=\"Main\">\n"
+        "  <BehaviorTree ID=\"Sub\"><Act/></BehaviorTree>\n"
+        "  <BehaviorTree ID=\"Main\"><SubTree ID=\"Sub\"/></BehaviorTree>\n"
+        "</root>\n");
+  const MadeSuite unnamed(input_of(
+      "<root BTCPP_format=\"4\"><BehaviorTree><Act/></BehaviorTree></root>"));
+  CHECK(unnamed.described.xml ==
+        "<root BTCPP_format=\"4\">\n"
+        "  <BehaviorTree><Act/></BehaviorTree>\n</root>\n");
+}
+
 TEST_CASE("identifiers") {
   CHECK(identifier("[No] -> Find ball") == "No_Find_ball");
   CHECK(identifier("2nd try") == "t2nd_try");
