@@ -2,10 +2,12 @@
 //
 // `btcheck whatif TREE`: what the mission does when something breaks.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/outputs/write_reports.hpp"
+#include "model/tree/node_types.hpp"
 #include "report/text/report.hpp"
 #include "report/whatif/earlier.hpp"
 #include "report/whatif/files.hpp"
@@ -172,6 +175,24 @@ ExitCode settled(const Options& options, WhatIfReport& report,
   return worst_of(code, ExitCode::BadInput);
 }
 
+// Of a tree that is too large as a whole, how its parts are asked.
+void tell_parts(const Options& options, const WhatIfReport& report) {
+  if (report.result.healthy.stopped == StopReason::None) return;
+  std::set<std::string> parts;
+  for (const Node& node : report.tree().nodes) {
+    if (node.type == NodeType::SubTree) parts.insert(node.id);
+  }
+  std::string help = "--max-states and --timeout allow more";
+  if (!parts.empty()) {
+    help += fmt::format("; or ask for one part at a time, --main-tree {}",
+                        fmt::join(parts, ", "));
+  }
+  Diagnostic diagnostic = file_error(
+      "BT9003", options.input,
+      "UNDECIDED: the runs without faults are too many to be known", help);
+  show(options, {diagnostic});
+}
+
 }  // namespace
 
 ExitCode run_whatif(const Options& asked) {
@@ -209,6 +230,7 @@ ExitCode run_whatif(const Options& asked) {
   if (!result.value) return ExitCode::BadInput;
   WhatIfReport report{inputs->tree, *input.value,        *result.value,
                       ticks,        options.faults.only, {}};
+  tell_parts(options, report);
   const double seconds = watch.monitor.seconds();
   const ExitCode code = settled(options, report, before);
   if (!options.is_quiet) tell(fmt::format("{:.2f} s\n", seconds));

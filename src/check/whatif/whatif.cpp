@@ -285,7 +285,9 @@ class Searcher {
     row.ended_in = tick_of(tree, run, run.size());
     if (is_whole() && row.faults.size() == 1) {
       row.notice = notice_on(tree, *healthy_, leaf, run);
-      if (shown.succeeds && row.harm != Harm::Silent) {
+      const bool gets_on =
+          row.harm != Harm::Silent && row.harm != Harm::NeverEnds;
+      if (shown.succeeds && gets_on) {
         const auto well = events_along(graph, *shown.succeeds);
         row.recovery = recovery_on(tree, leaf, well, asked_);
       }
@@ -395,6 +397,15 @@ Result<WhatIf> what_if(const WhatIfInput& input, const WhatIfOptions& options) {
   Searcher searcher(input, options, result);
   auto found = searcher.look_at_healthy();
   if (has_error(found)) return {std::nullopt, std::move(found)};
+  // Beside runs of which some are not known no fault can be told.
+  if (result.stopped != StopReason::None) {
+    for (const InjectedFault& each : result.possible.faults) {
+      FaultRow& row = result.rows.emplace_back();
+      row.faults = {each};
+      row.effect.stopped = result.stopped;
+    }
+    return {std::move(result), std::move(found)};
+  }
   const Stage stage("faults were put into the tree");
   std::vector<std::vector<InjectedFault>> sets;
   for (const InjectedFault& each : result.possible.faults) {

@@ -680,6 +680,9 @@ void settle_faults(const OptionWords& words, Options& options) {
   settle_choice(words, "--others", plan.choices.others);
   settle_number(words, "--late", 1, 1'000'000, plan.choices.late);
   settle_number(words, "--order", 1, 2, plan.order);
+  // A tree that is too large is told in its parts.
+  constexpr std::uint64_t kMostFaultStates = 300'000;
+  if (!words.has("--max-states")) options.max_states = kMostFaultStates;
   plan.only = words.value("--only");
   plan.against = words.value("--against");
   for (const std::string& word : words.all("--faults")) {

@@ -286,9 +286,9 @@ constexpr CommandSet kHasSettings = {
 constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space,
                                   Demo,  Init,  Command::Answer};
-constexpr CommandSet kCountsStates = {Check, Batch,   Space,           Demo,
-                                      Init,  Conform, Command::Answer, Serve,
-                                      Mcp,   Lsp,     WhatIf,          Tests};
+constexpr CommandSet kCountsStates = {
+    Check,           Batch, Space, Demo, Init, Conform,
+    Command::Answer, Serve, Mcp,   Lsp,  Tests};
 constexpr CommandSet kLimited = {
     Check,    Batch, Lint, Space,   Export, Trace,           Demo,
     Simulate, Init,  Run,  Conform, Leaves, Command::Answer, Serve,
@@ -474,6 +474,11 @@ constexpr OptionRow kOptions[] = {
      .help = "stop after about this many states",
      .commands = kCountsStates,
      .first = {Space}},
+    {.name = "--max-states",
+     .value = "NUMBER",
+     .fallback = "300000",
+     .help = "stop each search after about this many states",
+     .commands = {WhatIf}},
     {.name = "--memory",
      .value = "SIZE",
      .fallback = "three quarters of what there is",
