@@ -106,7 +106,7 @@ set_target_properties(btcheck PROPERTIES EXPORT_NAME program)
 install(TARGETS btcheck btcheck_observer EXPORT btcheck_program
   COMPONENT program)
 install(FILES src/btcheck/observer.hpp src/btcheck/monitor.hpp
-  src/btcheck/marked_log.hpp
+  src/btcheck/marked_log.hpp src/btcheck/scripted_suite.hpp
   COMPONENT program DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/btcheck)
 if(TARGET btcheck_pins)
   install(TARGETS btcheck_pins LIBRARY OPTIONAL COMPONENT program
