@@ -53,6 +53,11 @@ class SharedMonitor : public SearchMonitor {
     done_.transitions += progress.transitions;
   }
 
+  void stop(StopReason reason) {
+    const std::lock_guard lock(mutex_);
+    if (stopped_ == StopReason::None) stopped_ = reason;
+  }
+
   // Of a search that ended by its own limit others go on.
   StopReason stopped() {
     const std::lock_guard lock(mutex_);
@@ -159,7 +164,13 @@ class Searcher {
           rows[i].effect.stopped = monitor_.stopped();
           continue;
         }
-        rows[i] = row_of(sets[i], sets[i].size() == 1);
+        try {
+          rows[i] = row_of(sets[i], sets[i].size() == 1);
+        } catch (const BudgetSpent& spent) {
+          // What is known of the others is told.
+          rows[i].effect.stopped = stop_reason(spent.spent());
+          monitor_.stop(rows[i].effect.stopped);
+        }
       }
     };
     std::vector<std::jthread> threads;
