@@ -74,7 +74,7 @@ TEST_CASE("groups expand to what was grouped") {
       return static_cast<int>(random() % most);
     };
     std::set<std::vector<std::pair<std::uint32_t, int>>> chosen;
-    const unsigned leaves = 2 + random() % 3;
+    const auto leaves = static_cast<std::uint32_t>(2 + below(3));
     for (int i = 0; i < 20; ++i) {
       const auto one = static_cast<std::uint32_t>(below(leaves));
       const auto other = leaves + static_cast<std::uint32_t>(below(leaves));

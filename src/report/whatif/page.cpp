@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t kMostPairRuns = 100;
 
 constexpr std::array<std::string_view, kHarms> kSigns = {
-    "S", "N", "R", "L", "X", "F", "f", "✓", "–", "?"};
+    "S", "N", "R", "L", "X", "F", "M", "✓", "–", "?"};
 std::string_view sign_of(Harm harm) {
   return kSigns[static_cast<std::size_t>(harm)];
 }

@@ -258,27 +258,26 @@ class Table {
 
   // --- Pairs, and what they come to ----------------------------------------
 
-  static FaultSets sets_of(const std::vector<FaultRow>& rows) {
-    FaultSets sets;
-    for (const FaultRow& row : rows) sets.push_back(row.faults);
-    return sets;
-  }
-
   void tell_pairs() {
     if (result_.order < 2) return;
     text_ += '\n';
     const auto& pairs = result_.pairs;
+    const auto open = static_cast<std::size_t>(
+        std::ranges::count(pairs, Harm::Undecided, &FaultRow::harm));
     add(fmt::format(
         "pairs ({} of {}, of which {} were searched): what neither fault does "
         "alone",
-        pairs.size(), grouped(result_.pairs_in_all),
+        pairs.size() - open, grouped(result_.pairs_in_all),
         grouped(result_.pairs_searched)));
-    std::vector<std::string> said;
-    for (const FaultRow& pair : pairs) {
-      said.push_back(
-          fmt::format("the mission {}", harm_text(tree_, result_, pair)));
+    FaultSets sets(pairs.size());
+    std::vector<std::string> said(pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (pairs[i].harm == Harm::Undecided) continue;
+      sets[i] = pairs[i].faults;
+      said[i] =
+          fmt::format("the mission {}", harm_text(tree_, result_, pairs[i]));
     }
-    const auto groups = grouped_pairs(sets_of(pairs), said);
+    const auto groups = grouped_pairs(sets, said);
     const std::size_t told = choices_.tells_all
                                  ? groups.size()
                                  : std::min(groups.size(), kMostPairs);
@@ -294,6 +293,10 @@ class Table {
     if (rest > 0) {
       detail(fmt::format("and {} that are no worse",
                          counted(rest, "pair", "pairs")));
+    }
+    if (open > 0) {
+      detail(
+          fmt::format("{} not decided", counted(open, "pair is", "pairs are")));
     }
   }
 
@@ -378,7 +381,12 @@ class Table {
     if (left > 0) {
       add(fmt::format("and {}", counted(left, "more part", "more parts")), 2);
     }
-    if (result_.stopped == StopReason::None) return;
+    StopReason stopped = result_.stopped;
+    for (const FaultRow& row : rows()) {
+      const bool is_open = row.harm == Harm::Undecided;
+      if (is_open && stopped == StopReason::None) stopped = row.effect.stopped;
+    }
+    if (stopped == StopReason::None) return;
     SearchProgress progress;
     progress.states = result_.healthy.states;
     for (const FaultRow& row : rows()) progress.states += row.effect.states;
@@ -386,7 +394,7 @@ class Table {
       progress.states += row.effect.states;
     }
     text_ += '\n';
-    add(fmt::format("UNDECIDED {}", stop_text(result_.stopped, progress)));
+    add(fmt::format("UNDECIDED {}", stop_text(stopped, progress)));
   }
 
   const BehaviorTree& tree_;

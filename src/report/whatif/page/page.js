@@ -85,7 +85,8 @@ document.addEventListener("keydown", (event) => {
   do {
     row += step[0];
     column += step[1];
-  } while (fields[row]?.[column] === null);
+    // Over what is empty, or has no run.
+  } while (fields[row]?.[column]?.disabled ?? fields[row]?.[column] === null);
   fields[row]?.[column]?.focus();
 });
 
