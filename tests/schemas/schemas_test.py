@@ -197,7 +197,7 @@ def look_at_faults(out):
     for folder, words in (("whatif_rules", ("-e", "never Charge.failure", "--order", 2)),
                           ("whatif_silent", ("--trace-dir", out / "faults", "--only", "Upload")),
                           ("whatif_silent", ("--max-states", 20, "--late", 3)),
-                          ("whatif_of_btf", ("--others", "contract", "--faults", "fails"))):
+                          ("whatif_of_btf", ("--others", "contract", "--faults", "fails-once"))):
         tree = "tree.btf" if folder.endswith("btf") else "tree.xml"
         written("whatif", btcheck(regress / folder, "whatif", tree, "-q", *words,
                                   "--format", "json"), f"whatif {folder}")

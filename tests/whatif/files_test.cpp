@@ -123,7 +123,10 @@ TEST_CASE("a run of a row is one that other commands read") {
     CHECK(*read.value == *run);
     REQUIRE(run->trigger != kNoState);
     CHECK(run->states[run->trigger].tick == row.struck_in);
-    CHECK(run->states.back().tick == row.ended_in);
+    // Where it goes round, the state that it returns to is told once.
+    if (run->loop == kNoState) {
+      CHECK(run->states.back().tick == row.ended_in);
+    }
     if (row.harm == Harm::NeverEnds) CHECK(run->loop != kNoState);
   }
   CHECK(shown > 20);
