@@ -350,13 +350,13 @@ TEST_CASE("a refusal says what was meant, or where an option belongs") {
        "Groot2 opens no other"},
       {{"whatif"}, "no tree", "btcheck whatif TREE"},
       {{"whatif", "t.btf", "--order", "3"},
-       "whatif: --order 3: no such number",
-       "write 1 or 2"},
+       "whatif --order 3: no such number",
+       "--order takes 1 or 2"},
       {{"whatif", "t.btf", "--late", "0"},
        "--late 0: not a number that it takes",
        "write a whole number from 1 to 1000000"},
       {{"whatif", "t.btf", "--format", "sarif"},
-       "whatif: --format sarif: no such format",
+       "whatif --format sarif: no such format",
        "write text, json, csv, html, dot, svg or opsa, or FORMAT=FILE"},
       {{"whatif", "t.btf", "--format", "csv", "--format", "json"},
        "two formats on standard output",
@@ -365,14 +365,15 @@ TEST_CASE("a refusal says what was meant, or where an option belongs") {
        "two formats in the file `f`",
        "give one of them a file: --format json=FILE"},
       {{"whatif", "t.btf", "--faults", "breaks"},
-       "whatif: --faults breaks: no such kind",
-       "write fails, fails-once, fails-for-ever, says-yes, never-ends, late, "
+       "whatif --faults breaks: no such kind",
+       "--faults takes fails, fails-once, fails-for-ever, says-yes, "
+       "never-ends, late, "
        "inverted, flips-once, halted, writes-nothing, writes-other or throws"},
       {{"watch", "-"},
        "watch does not read standard input",
        "name a file: btcheck watch groot2://robot --prop RULES.ltl"},
       {{"export", "t.btf", "--threads", "2"},
-       "--threads belongs to check, batch, space, demo, init and "
+       "--threads belongs to check, batch, space, whatif, demo, init and "
        "answer",
        "btcheck export --help lists what export takes"},
       {{"t.btf", "--tick"},

@@ -190,6 +190,7 @@ TEST_CASE("the help of a command names its options and no others") {
       CAPTURE(option.name);
       const bool is_named =
           options.find("\n  " + shown_name(option)) != std::string::npos;
+      // As this command takes it.
       const OptionRow* own = option_of(command.command, option.name);
       CHECK(is_named ==
             (own != nullptr && shown_name(*own) == shown_name(option)));

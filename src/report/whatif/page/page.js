@@ -51,6 +51,7 @@ byId("earlier").addEventListener("click", () => go(-1));
 byId("later").addEventListener("click", () => go(1));
 byId("close").addEventListener("click", () => dialog.close());
 dialog.addEventListener("close", () => {
+  if (dialog.open) return;  // again, before this was heard
   byId("viewer").removeAttribute("srcdoc");
   history.replaceState(null, "", location.pathname + location.search);
   document.querySelector(`button[data-row="${shown}"]`)?.focus();
