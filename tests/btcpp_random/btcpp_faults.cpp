@@ -36,6 +36,8 @@ void write(const fs::path& file, const std::string& text) {
   if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
 }
 
+constexpr std::size_t kMostOfTree = 3;
+
 // An observer wants rules; this one is about every tree.
 std::string table_for(const FaultyScript& made, Profile profile) {
   const std::string text = "property can: possible root.success\n";
@@ -55,16 +57,19 @@ void write_trees(const fs::path& folder, Profile profile, std::uint64_t first,
   fs::create_directories(folder);
   for (int i = 0; i < count; ++i) {
     const std::uint64_t seed = first + static_cast<std::uint64_t>(i);
-    const auto made = random_faulty_script(seed, profile, ticks);
-    if (!made) continue;
-    const std::string name = (folder / fmt::format("t{}", seed)).string();
-    write(name + ".xml", made->tree.xml);
-    write(name + ".leaves", made->tree.leaves);
-    write(name + ".script", made->tree.script);
-    write(name + ".well", made->well);
-    write(name + ".monitor", table_for(*made, profile));
-    write(name + ".fault",
-          fmt::format("{} {}\n", made->leaf, facts_of(made->kind).word));
+    int number = 0;
+    for (const FaultyScript& made :
+         random_faulty_scripts(seed, profile, ticks, kMostOfTree)) {
+      const std::string name =
+          (folder / fmt::format("t{}-{}", seed, ++number)).string();
+      write(name + ".xml", made.tree.xml);
+      write(name + ".leaves", made.tree.leaves);
+      write(name + ".script", made.tree.script);
+      write(name + ".well", made.well);
+      write(name + ".monitor", table_for(made, profile));
+      write(name + ".fault",
+            fmt::format("{} {}\n", made.leaf, facts_of(made.kind).word));
+    }
   }
 }
 

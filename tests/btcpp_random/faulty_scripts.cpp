@@ -92,6 +92,8 @@ void let_be_late(Answers& answers) {
 void put_in(Answers& answers, FaultKind kind, int number) {
   std::vector<std::string>& words = answers.words;
   if (kind == FaultKind::Fails) words = {"failure"};
+  // The last one stays: it may be that one.
+  words.insert(words.end(), static_cast<std::size_t>(number) + 1, words.back());
   int seen = 0;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] != "success") continue;
@@ -129,58 +131,101 @@ void say_duration(std::string& leaves, const std::string& leaf) {
   leaves.insert(end - 1, " :duration [0,2]");
 }
 
-bool is_determined(const ScriptedTree& made, Profile profile,
-                   const std::string& script, int ticks) {
+// Its ticks up to the end of the tree; "" where something other than the
+// script decides.
+std::string first_mission(const ScriptedTree& made, Profile profile,
+                          const std::string& script, int ticks) {
   const auto tree =
       read_tree("t.xml", made.xml, scripted_reading(profile, made.leaves));
-  return tree.value && scripted_run(*tree.value, script, ticks).is_determined;
+  if (!tree.value) return "";
+  const ScriptedRun run = scripted_run(*tree.value, script, ticks);
+  if (!run.is_determined) return "";
+  std::istringstream lines(run.lines);
+  std::string mission;
+  for (std::string line; std::getline(lines, line);) {
+    mission += line + "\n";
+    if (line.find("root=success") != line.npos ||
+        line.find("root=failure") != line.npos) {
+      break;
+    }
+  }
+  return mission;
+}
+
+// How often the leaf succeeds in it.
+int successes(const std::string& mission, const std::string& leaf) {
+  int count = 0;
+  const std::string name = " " + leaf + "=";
+  for (std::size_t at = mission.find(name); at != mission.npos;
+       at = mission.find(name, at + 1)) {
+    const std::size_t end = mission.find_first_of(" \n", at + 1);
+    const std::string answers = mission.substr(at, end - at);
+    for (std::size_t one = answers.find("success"); one != answers.npos;
+         one = answers.find("success", one + 1)) {
+      ++count;
+    }
+  }
+  return count;
 }
 
 }  // namespace
 
-std::optional<FaultyScript> random_faulty_script(std::uint64_t seed,
-                                                 Profile profile, int ticks) {
+std::vector<FaultyScript> random_faulty_scripts(std::uint64_t seed,
+                                                Profile profile, int ticks,
+                                                std::size_t most) {
   constexpr std::array kKinds = {FaultKind::Fails,    FaultKind::FailsOnce,
                                  FaultKind::FailsOn,  FaultKind::NeverEnds,
                                  FaultKind::EndsLate, FaultKind::Throws};
   SplitMix64 random(seed ^ 0x5eed);
-  FaultyScript made{
-      random_scripted_tree(seed, profile, World::Scripted, ticks), "", "", {}};
-  std::vector<Answers> all = answers_in(made.tree.script);
-  std::vector<std::size_t> actions;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!is_action(all[i])) continue;
-    let_work(all[i]);
-    actions.push_back(i);
+  const ScriptedTree tree =
+      random_scripted_tree(seed, profile, World::Scripted, ticks);
+  std::vector<Answers> well = answers_in(tree.script);
+  for (Answers& each : well) {
+    if (is_action(each)) let_work(each);
   }
-  if (actions.empty()) return std::nullopt;
-  Answers& chosen = all[actions[static_cast<std::size_t>(
-      random.below(static_cast<int>(actions.size())))]];
-  made.leaf = chosen.leaf;
-  made.kind = kKinds[static_cast<std::size_t>(
-      random.below(static_cast<int>(kKinds.size())))];
-  const bool skips =
-      std::ranges::find(chosen.words, "skipped") != chosen.words.end();
-  if (made.kind == FaultKind::EndsLate) {
-    if (skips) return std::nullopt;
-    let_end_in_time(chosen);
-    say_duration(made.tree.leaves, made.leaf);
+  std::vector<FaultyScript> found;
+  // Each leaf with each kind, in a random order, as long as they are wanted.
+  std::vector<std::pair<std::size_t, FaultKind>> open;
+  for (std::size_t i = 0; i < well.size(); ++i) {
+    if (!is_action(well[i])) continue;
+    for (const FaultKind kind : kKinds) open.emplace_back(i, kind);
   }
-  made.well = text_of(all);
-  if (made.kind == FaultKind::EndsLate) {
-    let_be_late(chosen);
-  } else {
-    put_in(chosen, made.kind, random.below(3));
+  while (!open.empty() && found.size() < most) {
+    const auto at = static_cast<std::ptrdiff_t>(
+        random.below(static_cast<int>(open.size())));
+    const auto [number, kind] = open[static_cast<std::size_t>(at)];
+    open.erase(open.begin() + at);
+    FaultyScript made{tree, "", well[number].leaf, kind};
+    std::vector<Answers> all = well;
+    Answers& chosen = all[number];
+    const bool skips =
+        std::ranges::find(chosen.words, "skipped") != chosen.words.end();
+    if (kind == FaultKind::EndsLate) {
+      if (skips) continue;
+      let_end_in_time(chosen);
+      say_duration(made.tree.leaves, made.leaf);
+    }
+    made.well = text_of(all);
+    const std::string mission =
+        first_mission(made.tree, profile, made.well, ticks);
+    const int times = successes(mission, made.leaf);
+    if (times == 0) continue;
+    if (kind == FaultKind::EndsLate) {
+      let_be_late(chosen);
+    } else {
+      put_in(chosen, kind, random.below(times));
+    }
+    made.tree.script = text_of(all);
+    const bool is_played =
+        kind != FaultKind::Throws && kind != FaultKind::EndsLate;
+    if (is_played) {
+      const std::string with_fault =
+          first_mission(made.tree, profile, made.tree.script, ticks);
+      if (with_fault.empty() || with_fault == mission) continue;
+    }
+    found.push_back(std::move(made));
   }
-  made.tree.script = text_of(all);
-  if (!is_determined(made.tree, profile, made.well, ticks)) {
-    return std::nullopt;
-  }
-  const bool is_played =
-      made.kind == FaultKind::Throws || made.kind == FaultKind::EndsLate ||
-      is_determined(made.tree, profile, made.tree.script, ticks);
-  if (!is_played) return std::nullopt;
-  return made;
+  return found;
 }
 
 }  // namespace btcheck::reference

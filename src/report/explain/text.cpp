@@ -401,9 +401,10 @@ std::string suspect_text(const LogMoments& moments, const Suspect& suspect) {
     case FailsOn:
       return fmt::format("fails for ever from {} on: {}", from(), when);
     case NeverEnds:
-      return fmt::format("never ends{}: it runs since {}",
-                         has(suspect, EndsLate) ? ", or ends late" : "",
-                         from());
+      return fmt::format(
+          "never ends{}{}: it runs since {}",
+          has(suspect, EndsLate) ? ", or ends late" : "",
+          has(suspect, Throws) ? ", or has thrown an exception" : "", from());
     case Throws:
       return fmt::format("throws an exception {}", when);
     case EndsLate:

@@ -35,6 +35,12 @@ class Chain {
     return made;
   }
 
+  // The moment since which a node runs that does so at the end.
+  std::size_t since(NodeId node) const {
+    return since(node, answers(node, begin_, moments_.last().end),
+                 moments_.last().end);
+  }
+
  private:
   // Where it began to work towards what it did there.
   std::size_t beginning(NodeId node, std::size_t done) const {
@@ -142,8 +148,12 @@ std::vector<Cause> causes_of(const LogMoments& moments) {
   if (!moments.top() || mission.outcome == Outcome::Nothing) return {};
   const auto some = moments.of(*moments.top(), mission.begin, mission.end);
   for (auto at = some.rbegin(); at != some.rend(); ++at) {
-    if (moments.at(*at).what == Happening::Asked) continue;
-    return {Chain(moments).cause(*moments.top(), {*at})};
+    const Happening what = moments.at(*at).what;
+    if (what == Happening::Asked) continue;
+    const Chain chain(moments);
+    const std::size_t done =
+        what == Happening::Running ? chain.since(*moments.top()) : *at;
+    return {chain.cause(*moments.top(), {done})};
   }
   return {};
 }

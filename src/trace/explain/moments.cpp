@@ -205,13 +205,15 @@ BehaviorLog first_records(const BehaviorLog& log, std::size_t records) {
   if (records >= log.transitions.size()) return cut;
   cut.transitions.resize(records);
   if (!cut.marks) return cut;
-  auto& marks = cut.marks->events;
+  // A tick that comes again has its records again: all are written out.
+  std::vector<LogMark> events;
   std::size_t seen = 0;
-  auto at = marks.begin();
-  for (; at != marks.end() && seen < records; ++at) {
-    seen += is_record(*at) ? 1 : 0;
-  }
-  marks.erase(at, marks.end());
+  each_mark(*log.marks, [&](const LogMark& mark) {
+    if (seen == records) return;
+    seen += is_record(mark) ? 1 : 0;
+    events.push_back(mark);
+  });
+  cut.marks->events = std::move(events);
   return cut;
 }
 

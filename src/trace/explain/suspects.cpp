@@ -308,6 +308,11 @@ class Search {
         is_possible(leaf, FaultKind::EndsLate)) {
       faults.push_back({leaf, {FaultKind::EndsLate, 0}});
     }
+    const bool shows_exceptions = log_.log.marks || is_own(log_.log);
+    if (kind == FaultKind::NeverEnds && !shows_exceptions &&
+        is_possible(leaf, FaultKind::Throws)) {
+      faults.push_back({leaf, {FaultKind::Throws, 0}});
+    }
     found_.single.push_back(suspect(leaf, std::move(faults)));
   }
 
