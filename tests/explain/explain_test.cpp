@@ -244,6 +244,27 @@ TEST_CASE("an exception is put down to the leaf that was asked") {
   CHECK(has(text, "The fault: `dock` throws an exception in tick 1"));
 }
 
+TEST_CASE("a finding of the check is told where the log shows it") {
+  // Whether it could arm or not, it takes off.
+  const std::string tree = R"(<Sequence name="mission">
+    <Fallback name="arm"><ArmNozzles/><WarnPilot/></Fallback>
+    <TakeOff/></Sequence>)";
+  const std::string known =
+      "(defaction ArmNozzles)\n(defaction WarnPilot)\n(defaction TakeOff)\n";
+  ScriptedTreeLog shown(tree, known,
+                        "ArmNozzles: failure\nWarnPilot: success\n"
+                        "TakeOff: success\n");
+  const Explanation found = shown.explained();
+  REQUIRE(found.findings.size() == 1);
+  CHECK(found.findings[0].code == "BT2207");
+  CHECK(found.findings[0].tick == 1);
+  CHECK(has(shown.text(found),
+            "The log shows what a check of the tree finds:\n"
+            "  BT2207 in tick 1, line 4: "));
+  ScriptedTreeLog well(tree, known, "ArmNozzles: success\nTakeOff: success\n");
+  CHECK(well.explained().findings.empty());
+}
+
 TEST_CASE("the whole text, and the same as JSON") {
   ScriptedTreeLog log(kDock, leaves(), "Dock: failure\n");
   const Explanation found = log.explained();

@@ -21,7 +21,7 @@ std::string quoted(const BehaviorTree& tree, NodeId node) {
 }
 
 std::string seconds(std::int64_t time) {
-  return fmt::format("{}.{:03} s", time / 1'000'000, time / 1'000 % 1'000);
+  return fmt::format("{}.{:06} s", time / 1'000'000, time % 1'000'000);
 }
 
 std::string joined(const std::vector<std::string>& words,

@@ -93,6 +93,8 @@ class Explainer {
         lower_values(tree, input_.tree.source, input_.tree.ticks);
     if (!network.value) return;
     Ways with_fault(tree, *network.value, limits_);
+    // The nearest fault of the table may not be this one to the letter.
+    if (!with_fault.follow(log_).conforms()) return;
     made_.last_way_with_fault = with_fault.last_way(log_);
     made_.is_hopeless_with_fault = with_fault.is_hopeless();
   }
