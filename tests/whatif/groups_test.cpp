@@ -70,11 +70,11 @@ TEST_CASE("groups expand to what was grouped") {
   std::mt19937 random(7);
   std::size_t fewer = 0;
   for (int round = 0; round < 300; ++round) {
-    const auto below = [&](unsigned most) {
+    const auto below = [&](std::uint32_t most) {
       return static_cast<int>(random() % most);
     };
     std::set<std::vector<std::pair<std::uint32_t, int>>> chosen;
-    const auto leaves = static_cast<std::uint32_t>(2 + below(3));
+    const auto leaves = static_cast<std::uint32_t>(2 + below(3u));
     for (int i = 0; i < 20; ++i) {
       const auto one = static_cast<std::uint32_t>(below(leaves));
       const auto other = leaves + static_cast<std::uint32_t>(below(leaves));
