@@ -128,6 +128,15 @@ def look_at_explanations(out):
     for log in sorted(folder.glob("*.btlog")):
         written("run-explanation", btcheck(folder, "explain", log.name, *words),
                 f"explain {log.name}")
+    # Another contract than the leaf's, and a finding that the run shows.
+    written("run-explanation", btcheck(
+        regress / "conform_answer_left", "explain", "run.btlog", "--tree", "tree.xml",
+        "--leaves", "recover.leaves", "--format", "json"), "explain another contract")
+    findings = sources / "tests/findings"
+    tree = "05-guard-without-effect-bug.xml"
+    btcheck(findings, "simulate", tree, "--seed", 1, "--ticks", 30, "-o", run)
+    written("run-explanation", btcheck(findings, "explain", run, "--tree", tree, "--format",
+                                       "json"), "explain a finding")
 
 
 def look_at_included(out):

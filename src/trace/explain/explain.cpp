@@ -54,12 +54,12 @@ class Explainer {
 
   Explanation take() {
     const BehaviorTree& tree = input_.tree.tree;
+    made_.causes = causes_of(log_.moments);
     Ways ways(tree, input_.network, limits_);
     made_.followed = ways.follow(log_);
     made_.progress = made_.followed.progress;
     note(made_.followed.stopped);
     if (is_over()) return std::move(made_);
-    made_.causes = causes_of(log_.moments);
     made_.suspects = suspects_of(input_.tree, log_, made_.causes, limits_);
     note(made_.suspects.stopped);
     if (made_.is_refused() || is_over()) return std::move(made_);
