@@ -300,6 +300,18 @@ class Unnoticed {
         ++top.next;
       }
     }
+    // What passes in the step with the strike, behind it.
+    for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
+      if (nodes_[n].at.has_struck) continue;
+      for (std::uint32_t m = nodes_[n].first_move; m < end_of(n); ++m) {
+        const Move& move = moves_[m];
+        if (move.until_noticed >= 0) {
+          longest = std::max(longest, move.until_noticed);
+        } else if (nodes_[move.to].at.has_struck) {
+          longest = std::max(longest, move.ticks + most[move.to]);
+        }
+      }
+    }
     return longest;
   }
   std::uint32_t end_of(std::uint32_t node) const {
