@@ -264,6 +264,8 @@ constexpr Without kWithout[] = {
     {"explain", "--tick-gap", "", "the log has its ticks"},
     {"fmt", "--config --no-config", "", "they leave nothing out here"},
     {"fmt", "--verify", "", "the networks are equal"},
+    {"whatif", "--max-states", "t.xml",
+     "no fault has as many as are searched between two looks at the limit"},
     {"fmt", "--timeout", "", "it is done before a limit is looked at"},
 };
 
