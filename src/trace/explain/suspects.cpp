@@ -320,10 +320,7 @@ class Search {
   void look_at_well(const std::vector<StateVector>& states) {
     switch (log_.moments.last().outcome) {
       case Outcome::Exception:
-        if (!log_.moments.left_by_exception().empty()) {
-          add_if_possible(log_.moments.left_by_exception().back(),
-                          FaultKind::Throws);
-        }
+        look_at_exception(states);
         break;
       case Outcome::Running:
         look_at_running(states);
@@ -337,16 +334,32 @@ class Search {
     }
   }
 
-  void look_at_running(const std::vector<StateVector>& states) {
-    const auto network =
+  void look_at_next(const std::vector<StateVector>& states,
+                    bool one_was_asked) {
+    const BehaviorTree tree =
         with_faults(tree_.tree, std::vector<InjectedFault>{}, Others::Work);
-    const auto lowered = lower_values(network, tree_.source, tree_.ticks);
-    if (lowered.value && !log_.log.marks && !is_own(log_.log)) {
-      for (const NodeId leaf :
-           Ways(network, *lowered.value, limits_).asked_next(states)) {
-        add_if_possible(leaf, FaultKind::Throws);
-      }
+    const auto lowered = lower_values(tree, tree_.source, tree_.ticks);
+    if (!lowered.value) return;
+    const Ways ways(tree, *lowered.value, limits_);
+    for (const NodeId leaf : ways.asked_next(states, one_was_asked)) {
+      add_if_possible(leaf, FaultKind::Throws);
     }
+  }
+
+  // Release 3 does not tell which nodes were asked.
+  void look_at_exception(const std::vector<StateVector>& states) {
+    const auto& open = log_.moments.left_by_exception();
+    const bool is_known =
+        !open.empty() && is_leaf(tree_.tree.node(open.back()).type);
+    if (is_known) {
+      add_if_possible(open.back(), FaultKind::Throws);
+    } else if (log_.log.marks && log_.log.marks->engine == 3) {
+      look_at_next(states, true);
+    }
+  }
+
+  void look_at_running(const std::vector<StateVector>& states) {
+    if (!log_.log.marks && !is_own(log_.log)) look_at_next(states, false);
     std::vector<NodeId> running;
     for (std::uint32_t n = 0; n < tree_.tree.nodes.size(); ++n) {
       const NodeId leaf{n};

@@ -178,8 +178,8 @@ std::optional<LastWay> Ways::last_way(const ExplainedLog& log) {
   return last;
 }
 
-std::vector<NodeId> Ways::asked_next(
-    std::span<const StateVector> states) const {
+std::vector<NodeId> Ways::asked_next(std::span<const StateVector> states,
+                                     bool one_was_asked) const {
   constexpr std::size_t kMost = 20'000;
   VectorSet store(system_.word_count());
   for (const StateVector& state : states) store.insert(state);
@@ -194,7 +194,7 @@ std::vector<NodeId> Ways::asked_next(
       if (step.edge != kTimeStep) {
         const auto& event = events_[step.edge];
         if (event && tree_.node(event->node()).is_root()) {
-          may_rest = true;
+          may_rest = !one_was_asked;
         } else if (event && event->what() == Happening::Asked) {
           if (std::ranges::find(asked, event->node()) == asked.end()) {
             asked.push_back(event->node());

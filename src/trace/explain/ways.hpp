@@ -52,8 +52,9 @@ class Ways {
   Conformance follow(const ExplainedLog& log) const;
 
   // Leaves that can be asked next, with nothing in between that a log shows;
-  // none where the tick may end before one is.
-  std::vector<NodeId> asked_next(std::span<const StateVector> states) const;
+  // unless it is known that one was asked, none where the tick may end before.
+  std::vector<NodeId> asked_next(std::span<const StateVector> states,
+                                 bool one_was_asked) const;
 
  private:
   struct Way {
