@@ -29,14 +29,15 @@ def ticks_of(script, count, folder):
     """What every node answers, tick by tick, where the leaves answer so."""
     file = folder / "leaves.txt"
     file.write_text(script)
-    ran = subprocess.run([BTCHECK, *READING, "--script", file, "--ticks", str(count), "-q"],
+    words = ["--script", file, "--ticks", str(count), "-q"]
+    ran = subprocess.run([BTCHECK, *READING, *words],
                          cwd=HERE, capture_output=True, text=True, timeout=60)
     assert ran.returncode < 2, ran.stderr
     return [tick_of(line) for line in ran.stdout.splitlines()]
 
 
 def tick_of(line):
-    """`tick 2: root=running x=3 Navigate=running` without number and variables."""
+    """`tick 2: root=running x=3 Navigate=running`, without 2 and x."""
     words = line.split(": ", 1)[1]
     if words.startswith("root=none"):
         return "throws"

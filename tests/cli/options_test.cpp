@@ -373,7 +373,8 @@ TEST_CASE("a refusal says what was meant, or where an option belongs") {
        "watch does not read standard input",
        "name a file: btcheck watch groot2://robot --prop RULES.ltl"},
       {{"export", "t.btf", "--threads", "2"},
-       "--threads belongs to check, batch, space, whatif, demo, init and "
+       "--threads belongs to check, batch, space, whatif, explain, demo, init "
+       "and "
        "answer",
        "btcheck export --help lists what export takes"},
       {{"t.btf", "--tick"},

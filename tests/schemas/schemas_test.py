@@ -159,7 +159,7 @@ def look_at_tests(out):
     """Suites of trees with entries, with time, and without either."""
     suites = out / "suites"
     for tree in ("world/patrol.xml", "nav2/jazzy/navigate_w_replanning_time.xml",
-                 "observer/mission.xml", "drone3.btf"):
+                 "observer/mission.xml", "drone3.btf", "mars_rover.btf"):
         btcheck(sources / "examples", "tests", tree, "-q", "-o", suites, "--to", "jsonl")
     for file in sorted(suites.glob("*.jsonl")):
         lines("tests", file.read_text(), file.name)
