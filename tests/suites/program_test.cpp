@@ -74,9 +74,8 @@ TEST_CASE("all is written, or nothing") {
   const std::string words = quoted(tree) + " -o suites";
   const Outcome first = tests_of(folder.path(), words);
   CHECK(first.code == 0);
-  CHECK(first.text.find(
-            "9 tests reach 12 of 12 answers and halts that are "
-            "proven possible (100 %)\n") != std::string::npos);
+  CHECK(first.text.find("9 tests reach 12 of 12 answers and halts that are "
+                        "proven possible (100 %)\n") != std::string::npos);
   const fs::path suites = folder.path() / "suites";
   const std::vector<std::string> files = {
       "one_motion_test.cpp", "CMakeLists.txt", "test_one_motion.py",

@@ -29,6 +29,11 @@ class Table {
   std::string take() {
     add(fmt::format("{}: what the mission does when something breaks",
                     tree_.file));
+    // Nothing can be told of faults where healthy runs are not known.
+    if (result_.healthy.stopped != StopReason::None) {
+      tell_limit();
+      return std::move(text_);
+    }
     add(healthy_text(result_));
     tell_assumptions();
     for (std::size_t h = 0; h < kHarms; ++h) tell_rows(static_cast<Harm>(h));
@@ -381,6 +386,10 @@ class Table {
     if (left > 0) {
       add(fmt::format("and {}", counted(left, "more part", "more parts")), 2);
     }
+    tell_limit();
+  }
+
+  void tell_limit() {
     StopReason stopped = result_.stopped;
     for (const FaultRow& row : rows()) {
       const bool is_open = row.harm == Harm::Undecided;
