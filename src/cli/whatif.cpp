@@ -175,47 +175,69 @@ ExitCode settled(const Options& options, WhatIfReport& report,
   return worst_of(code, ExitCode::BadInput);
 }
 
-// Of a tree that is too large as a whole, how its parts are asked.
-void tell_parts(const Options& options, const WhatIfReport& report) {
-  if (report.result.healthy.stopped == StopReason::None) return;
+// The trees that a tree has below SubTree nodes.
+std::set<std::string> parts_of(const BehaviorTree& tree) {
   std::set<std::string> parts;
-  for (const Node& node : report.tree().nodes) {
+  for (const Node& node : tree.nodes) {
     if (node.type == NodeType::SubTree) parts.insert(node.id);
   }
-  std::string help = "--max-states and --timeout allow more";
-  if (!parts.empty()) {
-    help += fmt::format("; or ask for one part at a time, --main-tree {}",
-                        fmt::join(parts, ", "));
-  }
-  Diagnostic diagnostic = file_error(
-      "BT9003", options.input,
-      "UNDECIDED: the runs without faults are too many to be known", help);
-  show(options, {diagnostic});
+  return parts;
 }
 
-}  // namespace
+// Of a tree that is too large as a whole: how more of it is asked.
+void tell_too_large(const Options& options, const std::string& parts) {
+  std::string help = "--max-states and --timeout allow more";
+  if (!parts.empty()) {
+    help +=
+        fmt::format("; or ask for one part at a time, --main-tree {}", parts);
+  }
+  show(options,
+       {file_error("BT9003", options.input,
+                   "UNDECIDED: the runs without faults are too many to be "
+                   "known",
+                   help)});
+}
 
-ExitCode run_whatif(const Options& asked) {
+// Whether its parts are told instead, one after the other: as text, each as a
+// mission of its own.
+bool tells_parts(const Options& options, const WhatIfReport& report) {
+  const FaultPlan& plan = options.faults;
+  const bool is_text = std::ranges::all_of(plan.outputs, [](const auto& each) {
+    return each.format == FaultFormat::Text && each.file.empty();
+  });
+  return is_text && options.main_tree.empty() && options.properties.empty() &&
+         options.rules.empty() && plan.only.empty() && plan.against.empty() &&
+         options.trace_dir.empty() && !parts_of(report.tree()).empty() &&
+         report.result.healthy.stopped == StopReason::MaxStates;
+}
+
+// What has come of one tree; and the parts that are to be told instead.
+struct OneTree {
+  ExitCode code = ExitCode::BadInput;
+  std::set<std::string> parts = {};
+};
+
+OneTree told_of(const Options& asked) {
   Options options = asked;
   const std::string obstacle = obstacle_before(options);
   if (!obstacle.empty()) {
     complain("BT0004", obstacle);
-    return ExitCode::BadInput;
+    return {};
   }
   std::vector<Diagnostic> found;
   const auto inputs = read_inputs(options, found);
-  if (!inputs) return ExitCode::BadInput;
+  if (!inputs) return {};
   options = inputs->options;
   std::optional<EarlierResult> before;
   if (!options.faults.against.empty()) {
     before = earlier_of(options);
-    if (!before) return ExitCode::BadInput;
+    if (!before) return {};
   }
   auto input = what_if_input(inputs->tree, inputs->properties);
   show(options, input.diagnostics);
-  if (!input.value) return ExitCode::BadInput;
+  if (!input.value) return {};
   const auto below = nodes_of_only(options, input.value->tree);
-  if (!below) return ExitCode::BadInput;
+  if (!below) return {};
   options.faults.choices.below = *below;
   Watch watch(options);
   const TickSemantics ticks = options.ticks.value_or(TickSemantics::Root);
@@ -227,14 +249,36 @@ ExitCode run_whatif(const Options& asked) {
   const BudgetScope telling(nullptr);
   Guard::dismiss();
   show(options, result.diagnostics);
-  if (!result.value) return ExitCode::BadInput;
+  if (!result.value) return {};
   WhatIfReport report{inputs->tree, *input.value,        *result.value,
                       ticks,        options.faults.only, {}};
-  tell_parts(options, report);
+  if (report.result.healthy.stopped != StopReason::None) {
+    tell_too_large(options,
+                   fmt::format("{}", fmt::join(parts_of(report.tree()), ", ")));
+  }
   const double seconds = watch.monitor.seconds();
   const ExitCode code = settled(options, report, before);
   if (!options.is_quiet) tell(fmt::format("{:.2f} s\n", seconds));
-  return code;
+  if (!tells_parts(options, report)) return {code};
+  return {code, parts_of(report.tree())};
+}
+
+}  // namespace
+
+ExitCode run_whatif(const Options& options) {
+  const auto [code, parts] = told_of(options);
+  if (parts.empty()) return code;
+  print(
+      "\nIts parts instead, each as a mission of its own, whatever calls "
+      "it:\n");
+  ExitCode worst = code;
+  for (const std::string& part : parts) {
+    Options one = options;
+    one.main_tree = part;
+    print(fmt::format("\n--- {} ---\n", part));
+    worst = worst_of(worst, told_of(one).code);
+  }
+  return worst;
 }
 
 }  // namespace btcheck
