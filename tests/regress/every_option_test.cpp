@@ -253,6 +253,7 @@ constexpr Without kWithout[] = {
     {"simulate", "--tick", "", "what happens in a tick is the same"},
     {"monitor", "--tick-ms", "", "its rules do not count ticks"},
     {"conform", "--loop", "", "the log ends before the tree does"},
+    {"explain", "--loop", "t.xml", "the log ends before the tree does"},
     {"conform", "--tick-ms", "t.btf", "the log has its ticks"},
     {"serve", "--stdio", "", "there is no other way"},
     {"serve", "--max-states", "t.xml", "as of init"},
