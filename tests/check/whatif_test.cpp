@@ -94,6 +94,14 @@ TEST_CASE("a failure that is swallowed is a silent loss") {
   CHECK(dock.within == 0);
 }
 
+TEST_CASE("what a healthy run need not have done is no loss") {
+  const auto asked = ask(
+      xml("<Parallel success_count=\"1\"><Photo/><Dock/></Parallel>", kModels));
+  const FaultRow& row = row_of(asked, "Photo", FaultKind::NeverEnds);
+  CHECK(row.effect.succeeds);
+  CHECK(row.harm != Harm::Silent);
+}
+
 TEST_CASE("a retry mends what fails once, and tells of what fails for ever") {
   const auto asked =
       ask(xml("<RetryUntilSuccessful num_attempts=\"3\"><Dock/>"
