@@ -177,11 +177,12 @@ std::string told(const NamedLog& named, const BehaviorTree& tree,
                         named.name, found.tick, kIndent,
                         short_name(tree, event.node), status_name(event.status))
           : fmt::format(
-                "REFUSED    {}  (record {} of {}, after {}.{:06} s)\n"
+                "REFUSED    {}  (record {} of {}, after {} s)\n"
                 "{}{} {} -> {}\n",
-                named.name, *found.refused + 1, count, record.time / 1'000'000,
-                record.time % 1'000'000, kIndent, short_name(tree, event.node),
-                status_name(record.before), status_name(record.after));
+                named.name, *found.refused + 1, count,
+                seconds_text(record.time), kIndent,
+                short_name(tree, event.node), status_name(record.before),
+                status_name(record.after));
   if (!found.allowed.empty()) {
     text += fmt::format("{}the tree could do: {}\n", kIndent,
                         allowed_text(tree, found.allowed));

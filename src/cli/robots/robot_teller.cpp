@@ -18,10 +18,6 @@ namespace {
 constexpr std::chrono::seconds kBehind{2};
 constexpr std::chrono::seconds kWarnAgain{10};
 
-std::string seconds(std::int64_t time) {
-  return fmt::format("{}.{:06}", time / 1'000'000, time % 1'000'000);
-}
-
 const std::string& name_of(const LogNode& node) {
   return node.name.empty() ? node.type : node.name;
 }
@@ -135,7 +131,7 @@ std::string RobotTeller::node_named(std::uint16_t uid) const {
 void RobotTeller::waits(std::string_view why) {
   lost_ = Clock::now();
   const std::string after =
-      recording_ == 0 ? "" : fmt::format(", after {} s", seconds(time_));
+      recording_ == 0 ? "" : fmt::format(", after {} s", seconds_text(time_));
   board_.remark(fmt::format("groot2://{}: {}{}; waiting for it\n",
                             address_.text(), why, after));
 }
@@ -251,9 +247,10 @@ void RobotTeller::tell_records(std::span<const LogTransition> records) {
     const auto status = [](LogStatus one) {
       return kLogStatusNames[static_cast<std::size_t>(one)];
     };
-    text += fmt::format("[{}] {:5} {:{}}  {:>7} -> {}\n", seconds(record.time),
-                        record.uid, node_named(record.uid), widest_,
-                        status(record.before), status(record.after));
+    text +=
+        fmt::format("[{}] {:5} {:{}}  {:>7} -> {}\n", seconds_text(record.time),
+                    record.uid, node_named(record.uid), widest_,
+                    status(record.before), status(record.after));
   }
   if (!text.empty()) board_.result(named(text));
 }
@@ -262,7 +259,7 @@ void RobotTeller::ends(std::string_view why) {
   last_words_ = why;
   const std::string words =
       fmt::format("{} in {} s; {}", counted(records_, "record", "records"),
-                  seconds(time_), why);
+                  seconds_text(time_), why);
   later([this, words] {
     if (log_) {
       log_->close();
@@ -292,7 +289,7 @@ void RobotTeller::is_injected(std::size_t fault) {
   // One that answers always does so in each tick.
   if (!told.is_once && injected_[fault] > 1) return;
   board_.remark(fmt::format("groot2://{}: injected `{}` after {} s\n",
-                            address_.text(), told.text, seconds(time_)));
+                            address_.text(), told.text, seconds_text(time_)));
 }
 
 void RobotTeller::stands_at(std::size_t fault) {
@@ -301,7 +298,7 @@ void RobotTeller::stands_at(std::size_t fault) {
   ++standing_;
   board_.remark(fmt::format(
       "groot2://{}: stands at `{}` after {} s{}\n", address_.text(), told.node,
-      seconds(time_),
+      seconds_text(time_),
       plan_.break_time ? fmt::format(", for {} ms", plan_.break_time->count())
                        : std::string("; Enter lets it go on")));
 }

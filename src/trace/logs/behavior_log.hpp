@@ -124,6 +124,9 @@ class TickCounter {
 std::vector<std::int64_t> ticks_of(const BehaviorLog& log,
                                    const LogReading& reading);
 
+// "-0.000012" for microseconds.
+std::string seconds_text(std::int64_t time);
+
 // The tree with its uids, then every change of a status in the style of
 // BehaviorTree.CPP's StdCoutLogger, under a heading for each tick:
 //

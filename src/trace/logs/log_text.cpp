@@ -31,14 +31,6 @@ std::string name_of(const LogNode& node) {
   return shown(node.name.empty() ? node.type : node.name);
 }
 
-// "-0.000012" for microseconds.
-std::string seconds(std::int64_t time) {
-  const std::uint64_t size = time < 0 ? 0 - static_cast<std::uint64_t>(time)
-                                      : static_cast<std::uint64_t>(time);
-  return fmt::format("{}{}.{:06}", time < 0 ? "-" : "", size / kSecond,
-                     size % kSecond);
-}
-
 std::string date(std::int64_t time) {
   std::int64_t second = time / kSecond;
   std::int64_t rest = time % kSecond;
@@ -76,8 +68,9 @@ class Teller {
     const LogTransition* before = nullptr;
     for (const LogTransition& change : log_.transitions) {
       if (before == nullptr || is_new_tick(before->time, change.time)) {
-        text_ += is_ours_ ? fmt::format("\ntick {}\n", change.time / kTickTime)
-                          : fmt::format("\nafter {} s\n", seconds(change.time));
+        text_ += is_ours_
+                     ? fmt::format("\ntick {}\n", change.time / kTickTime)
+                     : fmt::format("\nafter {} s\n", seconds_text(change.time));
       }
       tell_change(change);
       before = &change;
@@ -96,17 +89,17 @@ class Teller {
       case MarkKind::TickBegins:
       case MarkKind::TickIsWoken:
         text_ += fmt::format(
-            "\ntick {}, after {} s{}\n", ++tick_, seconds(mark.time),
+            "\ntick {}, after {} s{}\n", ++tick_, seconds_text(mark.time),
             mark.kind == MarkKind::TickIsWoken ? ", woken up" : "");
         break;
       case MarkKind::TickEnds:
-        text_ += fmt::format("  [{}]       = {}\n", seconds(mark.time),
+        text_ += fmt::format("  [{}]       = {}\n", seconds_text(mark.time),
                              status_word(mark.status));
         break;
       case MarkKind::TickIsLeft:
-        text_ +=
-            fmt::format("  [{}]       left by an exception: {}\n",
-                        seconds(mark.time), shown(marks.texts[mark.number]));
+        text_ += fmt::format("  [{}]       left by an exception: {}\n",
+                             seconds_text(mark.time),
+                             shown(marks.texts[mark.number]));
         break;
       case MarkKind::Record:
         tell_change(log_.transitions[told_++]);
@@ -166,7 +159,7 @@ class Teller {
   void tell_change(const LogTransition& change) {
     const std::string name = name_of(*log_.find(change.uid));
     const std::string time =
-        is_ours_ ? "" : fmt::format("[{}] ", seconds(change.time));
+        is_ours_ ? "" : fmt::format("[{}] ", seconds_text(change.time));
     text_ +=
         fmt::format("  {}{:5} {}{:{}}  {:>7} -> {}\n", time, change.uid, name,
                     "", widest_ - letter_count(name),
@@ -221,6 +214,13 @@ std::vector<std::int64_t> ticks_of(const BehaviorLog& log,
     if (is_record(mark)) ticks.push_back(std::max(tick, std::int64_t{1}));
   });
   return ticks;
+}
+
+std::string seconds_text(std::int64_t time) {
+  const std::uint64_t size = time < 0 ? 0 - static_cast<std::uint64_t>(time)
+                                      : static_cast<std::uint64_t>(time);
+  return fmt::format("{}{}.{:06}", time < 0 ? "-" : "", size / kSecond,
+                     size % kSecond);
 }
 
 std::string log_text(const BehaviorLog& log, const LogReading& reading) {

@@ -281,9 +281,8 @@ std::string moment_text(const WatchedRule& rule) {
   if (!rule.record) {
     return tick.empty() ? "before the first record" : tick;
   }
-  return fmt::format("record {}, {}{}after {}.{:06} s", *rule.record, tick,
-                     tick.empty() ? "" : ", ", rule.time / 1'000'000,
-                     rule.time % 1'000'000);
+  return fmt::format("record {}, {}{}after {} s", *rule.record, tick,
+                     tick.empty() ? "" : ", ", seconds_text(rule.time));
 }
 
 std::string verdict_line(std::string_view verdict, std::string_view name,
