@@ -155,10 +155,6 @@ class HalfOf final : public SearchMonitor {
   SearchMonitor& whole_;
 };
 
-}  // namespace
-
-namespace {
-
 // What single faults do, as far as half of what is left is enough for it.
 FaultRuns runs_of_faults(const TreeInput& tree, const ForcedNetwork& forced,
                          Watch& watch) {

@@ -23,26 +23,17 @@ namespace {
 // Of one that never ends so many ticks are played.
 constexpr int kMostFaultTicks = 40;
 
-// The answers of nodes along a run, in their order.
-struct Told {
-  NodeId node{};
-  LocationRole role{};
-  friend bool operator==(const Told&, const Told&) = default;
-};
-
-std::optional<Told> told_by(const Network& network, const Step& step) {
-  if (step.edge == kTimeStep) return std::nullopt;
-  const Automaton& owner = network.owner_of_edge(step.edge);
-  if (owner.kind != AutomatonKind::Node) return std::nullopt;
-  const LocationRole role = owner.target(network.edge(step.edge)).role;
-  const bool counts = is_answer(role) || role == LocationRole::Halted;
-  return counts ? std::optional(Told{owner.node, role}) : std::nullopt;
+// The answer, or the halt, of a step.
+std::optional<NodeEvent> told_by(const Network& network, const Step& step) {
+  const auto event = event_of(network, step.edge);
+  return event && event->what() != Happening::Asked ? event : std::nullopt;
 }
 
 // Up to the end of the last whole tick, and of few ticks.
-std::vector<Told> answers_of(const BehaviorTree& tree, const Network& network,
-                             const std::vector<Step>& steps) {
-  std::vector<Told> all;
+std::vector<NodeEvent> answers_of(const BehaviorTree& tree,
+                                  const Network& network,
+                                  const std::vector<Step>& steps) {
+  std::vector<NodeEvent> all;
   std::size_t whole = 0;
   int ticks = 0;
   for (const Step& step : steps) {
@@ -51,13 +42,13 @@ std::vector<Told> answers_of(const BehaviorTree& tree, const Network& network,
     whole = all.size();
     if (++ticks == kMostFaultTicks) break;
   }
-  all.resize(whole);
+  all.erase(all.begin() + static_cast<std::ptrdiff_t>(whole), all.end());
   return all;
 }
 
 // Gives these answers; nothing where the tree does something else then.
 std::optional<std::vector<Step>> played(const ForcedNetwork& forced,
-                                        const std::vector<Told>& answers) {
+                                        const std::vector<NodeEvent>& answers) {
   const Network& network = forced.network();
   const BehaviorTree& tree = forced.tree();
   std::vector<Step> steps;
@@ -71,10 +62,10 @@ std::optional<std::vector<Step>> played(const ForcedNetwork& forced,
     // Of the ways of a leaf the one that its next answer names.
     const auto fits = [&](const ForcedNetwork::Way& way) {
       const auto told = told_by(network, way.step);
-      if (!told || !is_leaf(tree.node(told->node).type)) return true;
+      if (!told || !is_leaf(tree.node(told->node()).type)) return true;
       const auto next = std::find_if(
           answers.begin() + static_cast<std::ptrdiff_t>(done), answers.end(),
-          [&](const Told& each) { return each.node == told->node; });
+          [&](NodeEvent each) { return each.node() == told->node(); });
       return next != answers.end() && *next == *told;
     };
     const auto way = std::ranges::find_if(ways, fits);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/container_hash/hash.hpp>
 #include <functional>
 #include <map>
 #include <unordered_map>
@@ -51,17 +52,6 @@ struct FirstSteps : ReachabilityVisitor {
   std::vector<std::uint32_t> order;          // as they were found
 };
 
-struct WordsHash {
-  std::size_t operator()(const StateVector& words) const {
-    std::size_t hash = 0xcbf29ce484222325;
-    for (const Word word : words) {
-      hash = (hash ^ word) * 0x9e3779b97f4a7c15;
-      hash ^= hash >> 29;
-    }
-    return hash;
-  }
-};
-
 // A run on its way.
 struct PlannedRun {
   std::vector<Step> steps;
@@ -80,7 +70,7 @@ bool go_on(
     std::size_t from;
     Step step;
   };
-  std::unordered_map<StateVector, std::size_t, WordsHash> known;
+  std::unordered_map<StateVector, std::size_t, boost::hash<StateVector>> known;
   std::vector<Reached> reached;
   const auto add = [&](StateVector state, std::size_t from, const Step& step) {
     const auto [at, is_new] = known.emplace(std::move(state), reached.size());

@@ -15,25 +15,6 @@
 namespace btcheck {
 namespace {
 
-std::optional<Happening> happening(LocationRole role) {
-  switch (role) {
-    case LocationRole::Tick:
-      return Happening::Asked;
-    case LocationRole::Success:
-      return Happening::Success;
-    case LocationRole::Failure:
-      return Happening::Failure;
-    case LocationRole::Running:
-      return Happening::Running;
-    case LocationRole::Skipped:
-      return Happening::Skipped;
-    case LocationRole::Halted:
-      return Happening::Halted;
-    default:
-      return std::nullopt;
-  }
-}
-
 // What is told of a state: the ends of roots, faults, and who runs there.
 Observed told_of(const BehaviorTree& tree, const Network& network,
                  bool with_running) {
@@ -55,6 +36,33 @@ Observed told_of(const BehaviorTree& tree, const Network& network,
 
 }  // namespace
 
+std::optional<Happening> shown_as(LocationRole role) {
+  switch (role) {
+    case LocationRole::Tick:
+      return Happening::Asked;
+    case LocationRole::Success:
+      return Happening::Success;
+    case LocationRole::Failure:
+      return Happening::Failure;
+    case LocationRole::Running:
+      return Happening::Running;
+    case LocationRole::Skipped:
+      return Happening::Skipped;
+    case LocationRole::Halted:
+      return Happening::Halted;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<NodeEvent> event_of(const Network& network, std::uint32_t edge) {
+  if (edge == kTimeStep) return std::nullopt;
+  const Automaton& owner = network.owner_of_edge(edge);
+  if (owner.kind != AutomatonKind::Node) return std::nullopt;
+  const auto what = shown_as(owner.target(network.edge(edge)).role);
+  return what ? std::optional(NodeEvent(owner.node, *what)) : std::nullopt;
+}
+
 std::optional<VariableId> fault_phase(const Network& network, NodeId leaf) {
   return local_of(network, leaf, LocalRole::Fault);
 }
@@ -68,26 +76,19 @@ AnswerGraph::AnswerGraph(const BehaviorTree& tree, const Network& network,
       store_(searched_.system().word_count()) {
   event_of_edge_.resize(network.edge_count());
   for (std::uint32_t e = 0; e < event_of_edge_.size(); ++e) {
-    event_of_edge_[e] = event_of(e);
+    const auto event = event_of(network, e);
+    if (!event) continue;
+    // Of inner nodes that they are asked says nothing.
+    const Node& node = tree.node(event->node());
+    const bool is_inner = !node.is_root() && !is_leaf(node.type);
+    if (event->what() == Happening::Asked && is_inner) continue;
+    event_of_edge_[e] = event;
   }
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     const auto phase = fault_phase(network, NodeId{n});
     if (phase) faults_.push_back({NodeId{n}, *phase});
   }
   search(limits);
-}
-
-std::optional<NodeEvent> AnswerGraph::event_of(std::uint32_t edge) const {
-  const Network& network = system_.network();
-  const Automaton& owner = network.owner_of_edge(edge);
-  if (owner.kind != AutomatonKind::Node) return std::nullopt;
-  const auto what = happening(owner.target(network.edge(edge)).role);
-  if (!what) return std::nullopt;
-  const Node& node = tree_.node(owner.node);
-  if (what == Happening::Asked && !node.is_root() && !is_leaf(node.type)) {
-    return std::nullopt;
-  }
-  return NodeEvent(owner.node, *what);
 }
 
 void AnswerGraph::search(const Limits& limits) {
@@ -103,21 +104,23 @@ void AnswerGraph::search(const Limits& limits) {
       ask_budget();
       expand(next);
       if ((next + 1) % kPollInterval != 0) continue;
-      progress_.states = store_.size();
-      progress_.expanded = next + 1;
-      progress_.transitions = arcs_.size();
-      progress_.bytes = store_.bytes() + arcs_.size() * sizeof(Arc) +
-                        events_.size() * sizeof(NodeEvent);
+      measure(next + 1);
       stopped_ = limits.reached(progress_);
     }
   } catch (const BudgetSpent& spent) {
     stopped_ = stop_reason(spent.spent());
   }
   first_.resize(store_.size() + 1, static_cast<std::uint32_t>(arcs_.size()));
-  progress_.states = store_.size();
-  progress_.expanded = next;
-  progress_.transitions = arcs_.size();
+  measure(next);
   close();
+}
+
+void AnswerGraph::measure(std::uint32_t expanded) {
+  progress_.states = store_.size();
+  progress_.expanded = expanded;
+  progress_.transitions = arcs_.size();
+  progress_.bytes = store_.bytes() + arcs_.size() * sizeof(Arc) +
+                    event_count_ * sizeof(NodeEvent);
 }
 
 void AnswerGraph::expand(std::uint32_t state) {
@@ -191,25 +194,13 @@ void AnswerGraph::note(StateView state) {
 }
 
 std::uint32_t AnswerGraph::sequence_of(const std::vector<NodeEvent>& events) {
-  std::uint64_t hash = events.size();
-  for (const NodeEvent& event : events) {
-    hash = (hash ^ event.bits()) * 0x9e3779b97f4a7c15ULL;
-    hash ^= hash >> 29;
+  const auto next = static_cast<std::uint32_t>(sequences_.size());
+  const auto [known, is_new] = known_sequences_.emplace(events, next);
+  if (is_new) {
+    sequences_.push_back(&known->first);
+    event_count_ += events.size();
   }
-  const auto [from, to] = known_sequences_.equal_range(hash);
-  for (auto known = from; known != to; ++known) {
-    const auto& [first, last] = sequences_[known->second];
-    if (std::equal(events.begin(), events.end(), events_.begin() + first,
-                   events_.begin() + last)) {
-      return known->second;
-    }
-  }
-  const auto number = static_cast<std::uint32_t>(sequences_.size());
-  const auto first = static_cast<std::uint32_t>(events_.size());
-  events_.insert(events_.end(), events.begin(), events.end());
-  sequences_.emplace_back(first, static_cast<std::uint32_t>(events_.size()));
-  known_sequences_.emplace(hash, number);
-  return number;
+  return known->second;
 }
 
 // Which states can end: backwards from those that do.

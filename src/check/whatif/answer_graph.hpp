@@ -4,6 +4,8 @@
 // somebody sees who watches the tree, and nothing of what leaves mean by it.
 #pragma once
 
+#include <boost/container_hash/hash.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -43,10 +45,16 @@ class NodeEvent {
   Happening what() const { return static_cast<Happening>(bits_ & 7); }
   std::uint32_t bits() const { return bits_; }
   friend bool operator==(const NodeEvent&, const NodeEvent&) = default;
+  friend std::size_t hash_value(NodeEvent event) { return event.bits(); }
 
  private:
   std::uint32_t bits_;
 };
+
+// What somebody sees of a node that gets to a place of this role.
+std::optional<Happening> shown_as(LocationRole role);
+// Of the node that an edge moves; nothing of an edge that shows nothing.
+std::optional<NodeEvent> event_of(const Network& network, std::uint32_t edge);
 
 // How a state stands to the mission.
 enum class Ending : std::uint8_t {
@@ -55,6 +63,10 @@ enum class Ending : std::uint8_t {
   Failure,    // some root has not, and all have ended
   Exception,  // nothing moves any more
 };
+// In order: no exception has left everything as it is.
+inline bool has_ended(Ending ending) {
+  return ending == Ending::Success || ending == Ending::Failure;
+}
 
 class AnswerGraph {
  public:
@@ -78,8 +90,7 @@ class AnswerGraph {
   std::uint32_t first_arc(std::uint32_t state) const { return first_[state]; }
   const Arc& arc(std::uint32_t number) const { return arcs_[number]; }
   std::span<const NodeEvent> events(const Arc& arc) const {
-    const auto& [first, last] = sequences_[arc.events];
-    return {events_.data() + first, events_.data() + last};
+    return *sequences_[arc.events];
   }
   Ending ending(std::uint32_t state) const { return endings_[state]; }
   // Every fault of the tree has struck.
@@ -106,8 +117,8 @@ class AnswerGraph {
   void visit(StateView state, std::vector<NodeEvent>& happened,
              Visit found) const;
   std::uint32_t sequence_of(const std::vector<NodeEvent>& events);
+  void measure(std::uint32_t expanded);
   void close();
-  std::optional<NodeEvent> event_of(std::uint32_t edge) const;
 
   const BehaviorTree& tree_;
   CompiledNetwork system_;
@@ -123,9 +134,11 @@ class AnswerGraph {
 
   std::vector<std::uint32_t> first_;  // by state
   std::vector<Arc> arcs_;
-  std::vector<NodeEvent> events_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> sequences_;
-  std::unordered_multimap<std::uint64_t, std::uint32_t> known_sequences_;
+  std::unordered_map<std::vector<NodeEvent>, std::uint32_t,
+                     boost::hash<std::vector<NodeEvent>>>
+      known_sequences_;
+  std::vector<const std::vector<NodeEvent>*> sequences_;  // by number
+  std::size_t event_count_ = 0;                           // in all of them
   std::vector<Ending> endings_;
   std::vector<bool> struck_;
   std::vector<bool> can_end_;

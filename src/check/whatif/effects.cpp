@@ -50,9 +50,8 @@ std::optional<Shown::Path> left_on(const AnswerGraph& graph,
     ask_budget();
     const std::uint32_t here = open[next];
     const std::uint32_t state = here / 2;
-    const bool is_end = graph.ending(state) == Ending::Success ||
-                        graph.ending(state) == Ending::Failure;
-    if (here % 2 == 1 && is_end && graph.has_struck(state)) {
+    if (here % 2 == 1 && has_ended(graph.ending(state)) &&
+        graph.has_struck(state)) {
       Shown::Path path;
       for (std::uint32_t at = here; at != 0; at = reached[at].from) {
         path.push_back(reached[at].arc);
@@ -153,10 +152,7 @@ Effect effect_of(const AnswerGraph& graph, const std::vector<OnOff>& pairs,
       show(effect.hangs, shown.hangs, s);
       add_round(graph, s, *shown.hangs);
     }
-    // An exception leaves everything as it is.
-    const bool is_orderly = graph.ending(s) == Ending::Success ||
-                            graph.ending(s) == Ending::Failure;
-    if (!is_orderly) continue;
+    if (!has_ended(graph.ending(s))) continue;
     for (const NodeId leaf : graph.running(s)) {
       if (known != nullptr && is_known(known->left_running, leaf)) continue;
       if (running.insert(leaf).second && !shown.left) {
@@ -260,18 +256,6 @@ std::optional<Recovery> recovery_on(const BehaviorTree& tree, NodeId leaf,
   recovery.caught_by = *caught;
   recovery.through.assign(through.begin(), through.end());
   return recovery;
-}
-
-std::vector<bool> asked_in(const BehaviorTree& tree, const AnswerGraph& graph) {
-  std::vector<bool> asked(tree.nodes.size(), false);
-  for (std::uint32_t s = 0; s < graph.size(); ++s) {
-    for (const AnswerGraph::Arc& arc : graph.arcs(s)) {
-      for (const NodeEvent event : graph.events(arc)) {
-        if (event.what() == Happening::Asked) asked[index(event.node())] = true;
-      }
-    }
-  }
-  return asked;
 }
 
 std::vector<bool> asked_behind(const BehaviorTree& tree,

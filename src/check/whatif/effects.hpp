@@ -43,9 +43,8 @@ std::optional<Recovery> recovery_on(const BehaviorTree& tree, NodeId leaf,
                                     const std::vector<NodeEvent>& run,
                                     const std::vector<bool>& asked);
 
-// By node: whether some run asks it.
-std::vector<bool> asked_in(const BehaviorTree& tree, const AnswerGraph& graph);
-// The same once all faults have struck.
+// By node: whether some run asks it once all faults have struck; without
+// faults, at all.
 std::vector<bool> asked_behind(const BehaviorTree& tree,
                                const AnswerGraph& graph);
 

@@ -5,11 +5,13 @@
 #include <utility>
 
 #include "check/findings/facts.hpp"
-#include "model/automata/faults.hpp"
 #include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace {
+
+// Of the variables that a fault may give another value: so many values.
+constexpr int kMostOtherValues = 16;
 
 bool is_condition(const Node& node) {
   return node.type == NodeType::Condition || is_taken_for_condition(node);
@@ -39,7 +41,7 @@ bool can_write_others(const BehaviorTree& tree, const Node& node) {
          std::ranges::all_of(effects, [&](const StateAssignment& effect) {
            const StateVariable& variable = tree.variable(effect.variable);
            const int others = variable.max - variable.min;
-           return others > 0 && others < mapping::kMostOtherValues;
+           return others > 0 && others < kMostOtherValues;
          });
 }
 

@@ -4,21 +4,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "explore/store/state_store.hpp"
 #include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
 
 constexpr std::size_t kMostPlaces = 300'000;
-
-std::uint64_t hash_of(const std::vector<std::uint64_t>& words) {
-  std::uint64_t hash = words.size();
-  for (const std::uint64_t word : words) {
-    hash = (hash ^ word) * 0x9e3779b97f4a7c15ULL;
-    hash ^= hash >> 29;
-  }
-  return hash;
-}
 
 }  // namespace
 
@@ -39,15 +31,10 @@ HealthyRuns::HealthyRuns(const BehaviorTree& tree, const AnswerGraph& healthy,
 HealthyRuns::Places HealthyRuns::intern(std::vector<Place> places) {
   std::ranges::sort(places);
   places.erase(std::unique(places.begin(), places.end()), places.end());
-  const std::uint64_t hash = hash_of(places);
-  const auto [from, to] = known_.equal_range(hash);
-  for (auto known = from; known != to; ++known) {
-    if (sets_[known->second] == places) return known->second;
-  }
-  const auto number = static_cast<Places>(sets_.size());
-  sets_.push_back(std::move(places));
-  known_.emplace(hash, number);
-  return number;
+  const auto next = static_cast<Places>(sets_.size());
+  const auto [known, is_new] = known_.emplace(std::move(places), next);
+  if (is_new) sets_.push_back(&known->first);
+  return known->second;
 }
 
 HealthyRuns::Read HealthyRuns::read(Place place) const {
@@ -64,7 +51,7 @@ bool HealthyRuns::is_before(Place place, NodeEvent event) const {
 }
 
 bool HealthyRuns::is_done(Places places) const {
-  return std::ranges::find(sets_[places], kEnd) == sets_[places].end();
+  return std::ranges::find(*sets_[places], kEnd) == sets_[places]->end();
 }
 
 // On along an arc to an event that is heard, or to its end.
@@ -114,7 +101,7 @@ std::optional<HealthyRuns::Places> HealthyRuns::after(Places places,
   std::vector<Place> next;
   bool happens = false;
   ++closure_;
-  for (const Place here : sets_[places]) {
+  for (const Place here : *sets_[places]) {
     if (!is_before(here, event)) continue;
     happens = true;
     Read at = read(here);
@@ -164,8 +151,6 @@ class Unnoticed {
     bool has_struck = false;
     bool is_fresh = false;  // the fault has yet to give its answer
     bool is_done = true;    // what the leaf is for, with its last answer
-
-    friend bool operator==(const At&, const At&) = default;
   };
   struct Spot {
     At at;
@@ -181,17 +166,12 @@ class Unnoticed {
   };
 
   std::uint32_t add(const At& at, std::uint32_t from, std::uint32_t arc) {
-    std::uint64_t hash = (std::uint64_t{at.state} << 32) | at.places;
-    hash = hash * 8 + (at.has_struck ? 4 : 0) + (at.is_fresh ? 2 : 0) +
-           (at.is_done ? 1 : 0);
-    hash *= 0x9e3779b97f4a7c15ULL;
-    const auto [first, last] = known_.equal_range(hash);
-    for (auto known = first; known != last; ++known) {
-      if (nodes_[known->second].at == at) return known->second;
-    }
-    const auto number = static_cast<std::uint32_t>(nodes_.size());
+    const Word key[] = {Word{at.state} << 32 | at.places,
+                        (at.has_struck ? 4u : 0u) | (at.is_fresh ? 2u : 0u) |
+                            (at.is_done ? 1u : 0u)};
+    const auto [number, is_new] = known_.insert(key);
+    if (!is_new) return number;
     nodes_.push_back({at, from, arc, 0});
-    known_.emplace(hash, number);
     const bool is_lost = at.has_struck && !at.is_done && counts_ &&
                          faulty_.ending(at.state) == Ending::Success &&
                          healthy_.is_done(at.places);
@@ -326,7 +306,7 @@ class Unnoticed {
   HealthyRuns healthy_;
   std::vector<Spot> nodes_;
   std::vector<Move> moves_;
-  std::unordered_multimap<std::uint64_t, std::uint32_t> known_;
+  VectorSet known_{2};  // the numbers are those of the nodes
   Silence silence_;
 };
 

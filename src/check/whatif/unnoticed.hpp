@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <boost/container_hash/hash.hpp>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -72,8 +73,10 @@ class HealthyRuns {
   // By state and `succeeded`: the closure that came there.
   std::array<std::vector<std::uint32_t>, 2> seen_;
   std::uint32_t closure_ = 0;
-  std::vector<std::vector<Place>> sets_;
-  std::unordered_multimap<std::uint64_t, Places> known_;
+  std::unordered_map<std::vector<Place>, Places,
+                     boost::hash<std::vector<Place>>>
+      known_;
+  std::vector<const std::vector<Place>*> sets_;  // by number
   std::unordered_map<std::uint64_t, std::optional<Places>> after_;
 };
 

@@ -81,6 +81,16 @@ int tick_of(const BehaviorTree& tree, const std::vector<NodeEvent>& run,
   return ticks;
 }
 
+// The network of a tree that has faults of this one.
+Result<Network> lowered(const BehaviorTree& tree, const WhatIfInput& input,
+                        TickSemantics ticks) {
+  const Lowering how = lowering(tree, ticks);
+  Network network = lower_to_bind(tree, how);
+  auto found = sample_regions(tree, input.source, {}, how, network);
+  if (has_error(found)) return {std::nullopt, std::move(found)};
+  return {std::move(network), {}};
+}
+
 class Searcher {
  public:
   Searcher(const WhatIfInput& input, const WhatIfOptions& options,
@@ -99,7 +109,7 @@ class Searcher {
   std::vector<Diagnostic> look_at_healthy() {
     const Stage stage("the tree was searched without faults");
     healthy_tree_ = with_faults(tree_, {}, options_.choices.others);
-    auto network = lowered(healthy_tree_);
+    auto network = lowered(healthy_tree_, input_, options_.ticks);
     if (!network.value) return std::move(network.diagnostics);
     healthy_network_ = std::move(*network.value);
     healthy_.emplace(healthy_tree_, healthy_network_, limits_);
@@ -107,7 +117,7 @@ class Searcher {
     Shown shown;
     result_.healthy = effect_of(*healthy_, pairs_, nullptr, shown);
     result_.stopped = result_.healthy.stopped;
-    asked_ = asked_in(tree_, *healthy_);
+    asked_ = asked_behind(tree_, *healthy_);
     for (std::size_t file = 0; file < result_.rules.size(); ++file) {
       auto judged = judged_rules(healthy_tree_, file);
       if (!judged.value) return std::move(judged.diagnostics);
@@ -130,7 +140,7 @@ class Searcher {
     row.faults = std::move(faults);
     const BehaviorTree tree =
         with_faults(tree_, row.faults, options_.choices.others);
-    const auto network = lowered(tree);
+    const auto network = lowered(tree, input_, options_.ticks);
     if (!network.value) return row;
     const AnswerGraph graph(tree, *network.value, limits_);
     monitor_.ended(graph.progress());
@@ -193,14 +203,6 @@ class Searcher {
 
  private:
   bool is_whole() const { return result_.healthy.stopped == StopReason::None; }
-
-  Result<Network> lowered(const BehaviorTree& tree) const {
-    const Lowering how = lowering(tree, options_.ticks);
-    Network network = lower_to_bind(tree, how);
-    auto found = sample_regions(tree, input_.source, {}, how, network);
-    if (has_error(found)) return {std::nullopt, std::move(found)};
-    return {std::move(network), {}};
-  }
 
   Result<std::vector<PropertyVerdict>> judged_rules(const BehaviorTree& tree,
                                                     std::size_t file) {
@@ -446,9 +448,8 @@ RowNetwork network_of(const WhatIfInput& input, const WhatIf& result,
     if (bound.value) made.network = std::move(*bound.value->network);
     return made;
   }
-  const Lowering how = lowering(made.tree, ticks);
-  made.network = lower_to_bind(made.tree, how);
-  sample_regions(made.tree, input.source, {}, how, made.network);
+  auto network = lowered(made.tree, input, ticks);
+  if (network.value) made.network = std::move(*network.value);
   return made;
 }
 

@@ -28,7 +28,10 @@ Asked draw_strike(NodeBuilder& draw, LocationId asked, Expression guard = {});
 void draw_other_values(NodeBuilder& draw, LocationId from, LocationId then,
                        const std::vector<Assignment>& effects);
 
-// Of the variables that a fault may give another value: so many values.
-inline constexpr int kMostOtherValues = 16;
+// Whether its fault is what it writes: that strikes where it succeeds.
+inline bool spoils_writes(const Node& node) {
+  return node.fault && (node.fault->kind == FaultKind::WritesNothing ||
+                        node.fault->kind == FaultKind::WritesOther);
+}
 
 }  // namespace btcheck::mapping

@@ -8,20 +8,15 @@
 
 #include "report/explain/text.hpp"
 #include "report/text/report.hpp"
+#include "report/whatif/words.hpp"
 #include "text/json.hpp"
+#include "trace/logs/behavior_log.hpp"
 
 namespace btcheck {
 namespace {
 
 constexpr std::array<std::string_view, 5> kOutcomes = {
     "nothing", "success", "failure", "exception", "running"};
-
-constexpr std::array<std::string_view, 7> kHappenings = {
-    "asked", "success", "failure", "running", "skipped", "halted", "struck"};
-
-std::string_view word_of(Happening what) {
-  return kHappenings[static_cast<std::size_t>(what)];
-}
 
 class Writer {
  public:
@@ -63,8 +58,7 @@ class Writer {
                 {"records", there.records}};
   }
   static Json seconds(std::int64_t time) {
-    return Json::number(
-        fmt::format("{}.{:06}", time / 1'000'000, time % 1'000'000));
+    return Json::number(seconds_text(time));
   }
   Json moments(const std::vector<std::size_t>& at) const {
     Json all = Json::array();
@@ -76,7 +70,7 @@ class Writer {
     Json all = Json::array();
     for (const Cause& each : some) {
       all.push(Json{{"node", node(each.node)},
-                    {"did", word_of(each.what)},
+                    {"did", answer_word(each.what)},
                     {"at", moments(each.at)},
                     {"because", causes(each.because)}});
     }
@@ -109,14 +103,14 @@ class Writer {
     if (!last) return is_hopeless ? Json("never open") : Json::null();
     Json events = Json::array();
     for (const NodeEvent& event : last->way) {
-      events.push(
-          Json{{"node", node(event.node())}, {"does", word_of(event.what())}});
+      events.push(Json{{"node", node(event.node())},
+                       {"does", answer_word(event.what())}});
     }
     Json by = Json::null();
     if (last->moment) {
       const Moment& there = moments_.at(*last->moment);
       by = Json{{"node", node(there.node)},
-                {"did", word_of(there.what)},
+                {"did", answer_word(there.what)},
                 {"at", moment(*last->moment)}};
     }
     return Json{{"records", last->records},

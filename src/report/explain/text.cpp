@@ -8,6 +8,8 @@
 #include "model/tree/node_types.hpp"
 #include "report/explain/text.hpp"
 #include "report/text/report.hpp"
+#include "report/whatif/words.hpp"
+#include "trace/logs/behavior_log.hpp"
 
 namespace btcheck {
 namespace {
@@ -16,13 +18,7 @@ constexpr std::size_t kMostTimes = 6;   // listed of one node
 constexpr std::size_t kMostOthers = 4;  // suspects besides the first
 constexpr std::size_t kMostSteps = 8;   // of a way
 
-std::string quoted(const BehaviorTree& tree, NodeId node) {
-  return fmt::format("`{}`", short_name(tree, node));
-}
-
-std::string seconds(std::int64_t time) {
-  return fmt::format("{}.{:06} s", time / 1'000'000, time % 1'000'000);
-}
+std::string seconds(std::int64_t time) { return seconds_text(time) + " s"; }
 
 std::string joined(const std::vector<std::string>& words,
                    std::string_view last = " and ") {
@@ -88,25 +84,6 @@ std::string_view did(Happening what) {
   return "was left";
 }
 
-std::string_view does(Happening what) {
-  switch (what) {
-    case Happening::Success:
-      return "succeeds";
-    case Happening::Failure:
-      return "fails";
-    case Happening::Running:
-      return "runs";
-    case Happening::Skipped:
-      return "is skipped";
-    case Happening::Halted:
-      return "is halted";
-    case Happening::Asked:
-    case Happening::Struck:
-      break;
-  }
-  return "is asked";
-}
-
 class Teller {
  public:
   explicit Teller(const ExplainedRun& run)
@@ -139,7 +116,7 @@ class Teller {
   void gap() {
     if (!text_.ends_with("\n\n")) text_ += '\n';
   }
-  std::string name(NodeId node) const { return quoted(run_.tree, node); }
+  std::string name(NodeId node) const { return name_in_text(run_.tree, node); }
 
   // --- How it ended
 

@@ -13,25 +13,6 @@ namespace {
 
 constexpr std::size_t kMostNames = 3;
 
-std::string_view verb_of(Happening what) {
-  switch (what) {
-    case Happening::Success:
-      return "succeeds";
-    case Happening::Failure:
-      return "fails";
-    case Happening::Running:
-      return "runs";
-    case Happening::Skipped:
-      return "is skipped";
-    case Happening::Halted:
-      return "is halted";
-    case Happening::Asked:
-    case Happening::Struck:
-      return "is asked";
-  }
-  return "";
-}
-
 std::string later(int ticks) {
   return ticks == 0 ? "in the same tick"
                     : fmt::format("{} later",
@@ -161,7 +142,26 @@ std::string harm_text(const BehaviorTree& tree, const WhatIf& result,
 std::string notice_text(const BehaviorTree& tree, const FaultRow& row) {
   if (!row.notice) return "nobody";
   return fmt::format("{} {}, {}", name_in_text(tree, row.notice->node),
-                     verb_of(row.notice->what), later(row.notice->ticks));
+                     does(row.notice->what), later(row.notice->ticks));
+}
+
+std::string_view does(Happening what) {
+  switch (what) {
+    case Happening::Success:
+      return "succeeds";
+    case Happening::Failure:
+      return "fails";
+    case Happening::Running:
+      return "runs";
+    case Happening::Skipped:
+      return "is skipped";
+    case Happening::Halted:
+      return "is halted";
+    case Happening::Asked:
+    case Happening::Struck:
+      return "is asked";
+  }
+  return "";
 }
 
 std::string_view answer_word(Happening what) {

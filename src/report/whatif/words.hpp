@@ -36,6 +36,8 @@ std::string harm_text(const BehaviorTree& tree, const WhatIf& result,
                       const FaultRow& row);
 // Who notices, and when: "`Navigate` fails, 3 ticks later"; "nobody".
 std::string notice_text(const BehaviorTree& tree, const FaultRow& row);
+// What a node does then: "fails", "is halted".
+std::string_view does(Happening what);
 // "success" of a notice.
 std::string_view answer_word(Happening what);
 // How it gets on: "caught by `Retry`, through `Spin`"; "" where it does not.

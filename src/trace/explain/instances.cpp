@@ -10,26 +10,6 @@
 namespace btcheck {
 namespace {
 
-// What a log shows of a node that gets to such a place.
-std::optional<Happening> shown_as(LocationRole role) {
-  switch (role) {
-    case LocationRole::Tick:
-      return Happening::Asked;
-    case LocationRole::Success:
-      return Happening::Success;
-    case LocationRole::Failure:
-      return Happening::Failure;
-    case LocationRole::Running:
-      return Happening::Running;
-    case LocationRole::Skipped:
-      return Happening::Skipped;
-    case LocationRole::Halted:
-      return Happening::Halted;
-    default:
-      return std::nullopt;
-  }
-}
-
 // What a node with this status has done last; nothing where it has done
 // nothing yet.
 std::optional<Happening> shown_as(NodeStatus status) {

@@ -207,8 +207,7 @@ class Search {
         count(leaf, Happening::Running) == 0) {
       return false;
     }
-    BehaviorTree tree =
-        with_faults(tree_.tree, std::vector<InjectedFault>{}, Others::Work);
+    BehaviorTree tree = with_faults(tree_.tree, {}, Others::Work);
     Node& node = tree.nodes[index(leaf)];
     node.duration.reset();
     node.contract.may_run = true;
@@ -221,8 +220,7 @@ class Search {
   // which fault comes nearest; else nothing.
   std::vector<InjectedFault> faults_by_answers(NodeId leaf) {
     if (!is_possible(leaf, FaultKind::Fails)) return {};
-    BehaviorTree tree =
-        with_faults(tree_.tree, std::vector<InjectedFault>{}, Others::Work);
+    BehaviorTree tree = with_faults(tree_.tree, {}, Others::Work);
     Node& node = tree.nodes[index(leaf)];
     node.contract = tree_.tree.node(leaf).contract;
     node.contract.may_fail = true;
@@ -336,8 +334,7 @@ class Search {
 
   void look_at_next(const std::vector<StateVector>& states,
                     bool one_was_asked) {
-    const BehaviorTree tree =
-        with_faults(tree_.tree, std::vector<InjectedFault>{}, Others::Work);
+    const BehaviorTree tree = with_faults(tree_.tree, {}, Others::Work);
     const auto lowered = lower_values(tree, tree_.source, tree_.ticks);
     if (!lowered.value) return;
     const Ways ways(tree, *lowered.value, limits_);

@@ -13,23 +13,6 @@ namespace {
 // What a search from one place of the log may take.
 constexpr std::uint64_t kMostStates = 200'000;
 
-std::optional<Happening> happening_at(LocationRole role) {
-  switch (role) {
-    case LocationRole::Tick:
-      return Happening::Asked;
-    case LocationRole::Success:
-      return Happening::Success;
-    case LocationRole::Failure:
-      return Happening::Failure;
-    case LocationRole::Running:
-      return Happening::Running;
-    case LocationRole::Skipped:
-      return Happening::Skipped;
-    default:
-      return std::nullopt;
-  }
-}
-
 // The states that were reached, and how.
 struct Reached {
   std::uint32_t from = 0;
@@ -61,20 +44,17 @@ Ways::Ways(const BehaviorTree& tree, const Network& network,
            const Limits& limits)
     : tree_(tree), system_(network), limits_(limits) {
   events_.resize(network.edge_count());
-  for (std::uint32_t e = 0; e < events_.size(); ++e) events_[e] = event_of(e);
+  for (std::uint32_t e = 0; e < events_.size(); ++e) events_[e] = told_by(e);
 }
 
-std::optional<NodeEvent> Ways::event_of(std::uint32_t edge) const {
-  const Network& network = system_.network();
-  const Automaton& owner = network.owner_of_edge(edge);
-  if (owner.kind != AutomatonKind::Node) return std::nullopt;
-  const Edge& taken = network.edge(edge);
+// What a way is told by: leaves and roots that are asked and answer.
+std::optional<NodeEvent> Ways::told_by(std::uint32_t edge) const {
+  const auto event = event_of(system_.network(), edge);
+  if (!event || event->what() == Happening::Halted) return std::nullopt;
+  const Edge& taken = system_.network().edge(edge);
   if (taken.source == taken.target) return std::nullopt;
-  const auto what = happening_at(owner.target(taken).role);
-  if (!what) return std::nullopt;
-  const Node& node = tree_.node(owner.node);
-  if (!node.is_root() && !is_leaf(node.type)) return std::nullopt;
-  return NodeEvent(owner.node, *what);
+  const Node& node = tree_.node(event->node());
+  return node.is_root() || is_leaf(node.type) ? event : std::nullopt;
 }
 
 Conformance Ways::follow(const ExplainedLog& log) const {

@@ -63,7 +63,7 @@ class Ways {
   };
   std::optional<Way> way_to_success(std::span<const StateVector> states);
   std::optional<Way> way_after(const ExplainedLog& log, std::size_t records);
-  std::optional<NodeEvent> event_of(std::uint32_t edge) const;
+  std::optional<NodeEvent> told_by(std::uint32_t edge) const;
 
   const BehaviorTree& tree_;
   CompiledNetwork system_;

@@ -302,11 +302,6 @@ void spoil_writes(EngineBuilder& build, Answers& answers) {
   draw_other_values(build.draw(), answers.success.to, build.success(), effects);
 }
 
-bool spoils_writes(const Node& node) {
-  return node.fault && (node.fault->kind == FaultKind::WritesNothing ||
-                        node.fault->kind == FaultKind::WritesOther);
-}
-
 // What a leaf does while its fault is there; with what its answers then stop,
 // and what else is to be done when it is halted.
 void draw_fault(EngineBuilder& build, LocationId struck, const Answers& answers,

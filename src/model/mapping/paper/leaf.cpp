@@ -103,13 +103,13 @@ void draw_division_by_zero(NodeBuilder& draw, LocationId from,
 Outcome succeeding(NodeBuilder& draw, Expression guard,
                    std::vector<Assignment> also) {
   const LeafContract& contract = draw.node().contract;
-  const auto& fault = draw.node().fault;
-  const bool is_other = fault && fault->kind == FaultKind::WritesOther;
-  if (!is_other && !(fault && fault->kind == FaultKind::WritesNothing)) {
+  if (!spoils_writes(draw.node())) {
     return {"success", std::move(guard), contract.on_success, std::move(also)};
   }
   also.push_back(set(draw.fault_phase(), static_cast<int>(FaultPhase::There)));
-  if (!is_other) return {"success", std::move(guard), {}, std::move(also)};
+  if (draw.node().fault->kind == FaultKind::WritesNothing) {
+    return {"success", std::move(guard), {}, std::move(also)};
+  }
   if (!draw.knows("writes")) {
     draw_other_values(draw, draw.at("writes"), draw.at("success"),
                       draw.context().over_network(contract.on_success));
@@ -140,9 +140,7 @@ std::optional<LocationId> draw_fault(NodeBuilder& draw, LocationId asked,
                                      const std::optional<Timer>& timer = {}) {
   const auto& fault = draw.node().fault;
   using enum FaultKind;
-  if (!fault || fault->kind == WritesNothing || fault->kind == WritesOther) {
-    return asked;
-  }
+  if (!fault || spoils_writes(draw.node())) return asked;
   Expression where;
   std::vector<Assignment> stop;
   if (timer) stop.push_back(timer->stop());
