@@ -75,7 +75,7 @@ Partition numbered(const std::vector<std::uint32_t>& block_of) {
   return made;
 }
 
-// Silent steps of the graph lead to greater states only.
+// Silent steps of the graph lead to smaller states only.
 std::vector<std::uint32_t> refined(const LabelledGraph& graph,
                                    bool passes_silently) {
   std::vector<std::uint32_t> block(graph.size(), 0);
@@ -84,8 +84,7 @@ std::vector<std::uint32_t> refined(const LabelledGraph& graph,
     std::vector<std::vector<Arc>> signatures(graph.size());
     std::map<std::pair<std::uint32_t, std::vector<Arc>>, std::uint32_t> known;
     std::vector<std::uint32_t> next(graph.size());
-    for (std::size_t i = graph.size(); i-- > 0;) {
-      const auto s = static_cast<std::uint32_t>(i);
+    for (std::uint32_t s = 0; s < graph.size(); ++s) {
       std::vector<Arc>& signature = signatures[s];
       for (const Arc& arc : graph.arcs(s)) {
         const bool passes = passes_silently && block[arc.target] == block[s] &&
