@@ -12,6 +12,7 @@
 
 #include "explore/state/limits.hpp"
 #include "explore/state/transition_system.hpp"
+#include "explore/state/valuation.hpp"
 #include "ltl/rules/property.hpp"
 #include "model/automata/network.hpp"
 #include "model/tree/expression.hpp"
@@ -20,14 +21,6 @@
 namespace btcheck {
 
 enum class Verdict : std::uint8_t { Holds, Violated, Undecided };
-
-// One global state, unpacked.
-struct Valuation {
-  std::vector<int> variables;  // by VariableId
-  std::vector<int> clocks;     // by AutomatonId; 0 where none runs
-
-  friend bool operator==(const Valuation&, const Valuation&) = default;
-};
 
 // A step of a run and the state it leads to.
 struct RunStep {

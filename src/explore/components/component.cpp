@@ -5,13 +5,14 @@
 #include <limits>
 #include <utility>
 
-#include "explore/components/open_subtree.hpp"
+#include "explore/components/open_part.hpp"
 #include "explore/state/accesses.hpp"
 #include "text/budget.hpp"
 
 namespace btcheck {
 
-std::size_t Component::HashOfValues::operator()(const Values& values) const {
+std::size_t Component::HashOfValues::operator()(
+    const Values& values) const {
   std::uint64_t hash = 0x9e3779b97f4a7c15ull;
   for (const int value : values) {
     hash = (hash ^ static_cast<std::uint32_t>(value)) * 0xd6e8feb86659fd93ull;
@@ -27,15 +28,14 @@ Components::Components(const Network& network, std::vector<bool> shared,
       limits_(limits),
       protocol_(network),
       children_(network.automata.size()),
-      has_timer_(network.automata.size(), false),
-      first_user_(network.variables.size(),
-                  std::numeric_limits<std::uint32_t>::max()),
-      last_user_(network.variables.size(), 0),
-      known_(network.automata.size()) {
+      timers_(network.automata.size()),
+      users_(network.variables.size()) {
+  for (auto& known : known_) known.resize(network.automata.size());
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     const Automaton& automaton = network.automata[a];
     if (automaton.kind == AutomatonKind::Timer) {
-      has_timer_[index(network.node_automaton[index(automaton.node)])] = true;
+      timers_[index(network.node_automaton[index(automaton.node)])].push_back(
+          AutomatonId{a});
     }
     if (const auto parent = protocol_.parent(AutomatonId{a})) {
       children_[index(*parent)].push_back(AutomatonId{a});
@@ -53,181 +53,261 @@ Components::Components(const Network& network, std::vector<bool> shared,
   }
   const Accesses accesses(network);
   for (std::uint32_t v = 0; v < network.variables.size(); ++v) {
-    if (shared[v]) {
-      first_user_[v] = 0;
-      last_user_[v] = std::numeric_limits<std::uint32_t>::max();
-      continue;
-    }
+    // A fault is everybody's: it ends the run.
+    if (shared[v] || network.fault == VariableId{v}) continue;
+    std::vector<std::uint32_t>& users = users_[v];
+    bool is_alone = true;
     for (const auto* all : {&accesses.readers[v], &accesses.writers[v]}) {
       for (const AutomatonId user : *all) {
-        first_user_[v] = std::min(first_user_[v], index(user));
-        last_user_[v] = std::max(last_user_[v], index(user));
+        // A timer belongs to its node.
+        const Automaton& who = network.automaton(user);
+        is_alone = is_alone && who.kind != AutomatonKind::StateVariable;
+        users.push_back(
+            who.kind == AutomatonKind::Timer
+                ? index(network.node_automaton[index(who.node)])
+                : index(user));
       }
     }
+    if (!is_alone) users.clear();
+    std::ranges::sort(users);
+    users.erase(std::ranges::unique(users).begin(), users.end());
   }
 }
 
-bool Components::is_inside(AutomatonId root, VariableId variable) const {
-  const std::uint32_t v = index(variable);
-  return first_user_[v] <= last_user_[v] &&
-         first_user_[v] >= first_inside_[index(root)] &&
-         last_user_[v] <= index(root);
+bool Components::is_only_in(AutomatonId root, Side side,
+                            VariableId variable) const {
+  const auto& users = users_[index(variable)];
+  return !users.empty() && std::ranges::all_of(users, [&](std::uint32_t user) {
+    return is_below(AutomatonId{user}, root) == (side == Side::Inside);
+  });
 }
 
-// Its own location is its own business; nothing in it takes time or is
-// measured; and all below it are components.
+namespace {
+
+// Each of its edges is taken after a fixed time, and says nothing but that.
+bool only_counts(const Automaton& timer) {
+  return std::ranges::all_of(timer.edges, [](const Edge& edge) {
+    return edge.when.lower == edge.when.upper && edge.when.upper > 0 &&
+           edge.guard.is_true() && edge.updates.empty();
+  });
+}
+
+}  // namespace
+
+// Its own location is its own business, and so are those of its timers and the
+// calls of its children.
 bool Components::may_be_component(AutomatonId root) const {
   const Automaton& automaton = network_.automaton(root);
+  const auto is_own = [&](VariableId variable) {
+    return users_[index(variable)] == std::vector<std::uint32_t>{index(root)};
+  };
   const bool is_plain =
-      automaton.kind == AutomatonKind::Node && automaton.gate &&
-      protocol_.parent(root) && !has_timer_[index(root)] &&
-      is_inside(root, automaton.location) &&
-      std::ranges::none_of(automaton.edges, [](const Edge& edge) {
-        return edge.when.needs_clock();
+      automaton.kind == AutomatonKind::Node && is_own(automaton.location) &&
+      std::ranges::all_of(timers_[index(root)], [&](AutomatonId timer) {
+        const Automaton& own = network_.automaton(timer);
+        return only_counts(own) && is_own(own.location);
       });
   if (!is_plain) return false;
   std::size_t inside = 1;
   for (const AutomatonId child : children_[index(root)]) {
-    const Automaton& below = network_.automaton(child);
-    if (index(child) > index(root) || !is_inside(root, *below.gate)) {
-      return false;
-    }
+    const VariableId gate = *network_.automaton(child).gate;
+    if (index(child) > index(root) || users_[index(gate)].empty()) return false;
     inside += index(child) - first_inside_[index(child)] + 1;
   }
   return inside == index(root) - first_inside_[index(root)] + 1;
 }
 
-const Component* Components::of(AutomatonId root) {
-  auto& known = known_[index(root)];
-  if (!known) {
-    // Its children's come first.
-    bool may_be = protocol_.holds() && may_be_component(root);
-    for (const AutomatonId child : children_[index(root)]) {
-      may_be = of(child) != nullptr && may_be;
-    }
-    std::optional<Component> made;
-    if (may_be) made = OpenSubtree(*this, root).take();
-    known_[index(root)] = std::move(made);
+bool Components::is_only_root(AutomatonId automaton) const {
+  for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
+    const bool is_root = network_.automata[a].kind == AutomatonKind::Node &&
+                         !protocol_.parent(AutomatonId{a});
+    if (is_root && AutomatonId{a} != automaton) return false;
   }
-  const std::optional<Component>& component = *known_[index(root)];
-  return component ? &*component : nullptr;
+  return true;
 }
 
-std::optional<std::uint32_t> Components::state_of(const Values& values,
-                                                  AutomatonId root) const {
-  const Component& component = known_[index(root)]->value();
-  Values own;
-  for (std::size_t i = 0; i < children_[index(root)].size(); ++i) {
-    const auto at = place(values, children_[index(root)][i]);
+std::optional<std::vector<PartMember>> Components::members(AutomatonId root,
+                                                           Side side) {
+  const auto parent = protocol_.parent(root);
+  if (!protocol_.holds() || !parent) return std::nullopt;
+  const AutomatonId middle = side == Side::Inside ? root : *parent;
+  if (!may_be_component(middle)) return std::nullopt;
+  std::vector<PartMember> all = {{middle, nullptr, Side::Inside}};
+  const auto add = [&](AutomatonId id, Side of_it) {
+    const Component* component = of(id, of_it);
+    if (component != nullptr) all.push_back({id, component, of_it});
+    return component != nullptr;
+  };
+  if (side == Side::Outside) {
+    const bool is_root = !protocol_.parent(middle);
+    if (!is_root && !add(middle, Side::Outside)) return std::nullopt;
+    if (is_root && !is_only_root(middle)) return std::nullopt;
+    // What is inside is let do what it may.
+    if (of(root) == nullptr) return std::nullopt;
+  }
+  for (const AutomatonId child : children_[index(middle)]) {
+    if (child == root && side == Side::Outside) continue;
+    if (!add(child, Side::Inside)) return std::nullopt;
+  }
+  return all;
+}
+
+const Component* Components::of(AutomatonId root, Side side) {
+  auto& known = known_[static_cast<std::size_t>(side)][index(root)];
+  if (!known) {
+    // Its members come first; they are not among each other's.
+    auto all = members(root, side);
+    std::optional<Component> made;
+    if (all) made = OpenPart(*this, root, side, std::move(*all)).take();
+    known = std::move(made);
+  }
+  return known->has_value() ? &**known : nullptr;
+}
+
+std::optional<std::uint32_t> Components::state_of(
+    const Valuation& state, const Component& component) const {
+  Component::Values own;
+  for (const PartMember& member : component.members_) {
+    if (member.component == nullptr) continue;
+    const auto at = place(state, member.automaton, member.side);
     if (!at) return std::nullopt;
     own.push_back(at->location);
-    own.push_back(at->memory);
+    if (member.side == Side::Inside) own.push_back(at->memory);
   }
   for (std::size_t i = own.size(); i < component.own_.size(); ++i) {
-    own.push_back(values[index(component.own_[i])]);
+    const std::size_t id = index(component.own_[i]);
+    own.push_back(id < network_.variables.size()
+                      ? state.variables[id]
+                      : state.clocks[id - variable_count()]);
   }
   const auto known = component.states_.find(own);
   if (known == component.states_.end()) return std::nullopt;
   return known->second;
 }
 
-std::optional<Component::Place> Components::place(const Values& values,
-                                                  AutomatonId root) const {
-  const auto state = state_of(values, root);
-  if (!state) return std::nullopt;
-  const Component& component = known_[index(root)]->value();
-  return component.places_[component.partition_.block[*state]];
+std::optional<Component::Place> Components::place(const Valuation& state,
+                                                  AutomatonId root,
+                                                  Side side) const {
+  const Component& component = known(root, side);
+  const auto number = state_of(state, component);
+  if (!number) return std::nullopt;
+  const std::uint32_t place = component.place_of_[*number];
+  if (place == Component::kPassing) return std::nullopt;
+  return component.places_[place];
 }
 
-void Components::fire(Values& values, std::uint32_t number) const {
-  const Automaton& owner = network_.owner_of_edge(number);
-  const Edge& edge = network_.edge(number);
-  for (const Assignment& update : edge.updates) {
-    values[index(update.variable)] =
-        static_cast<int>(update.value.evaluate([&](const Term& term) {
-          return std::int64_t{values[static_cast<std::size_t>(term.operand)]};
-        }));
-  }
-  values[index(owner.location)] = network_.variable(owner.location).min +
-                                  static_cast<int>(index(edge.target));
-}
+namespace {
 
-// The nearest state of the block from which such a step leads there; of a
-// silent one within the block, such a step that can be taken again.
-bool Components::take(Values& values, AutomatonId root, std::uint32_t edge,
-                      std::vector<std::uint32_t>& taken) const {
-  const Component& component = known_[index(root)]->value();
-  const Component::Drawn& drawn = component.drawn_[edge];
-  const std::vector<std::uint32_t>& block = component.partition_.block;
-  const auto start = state_of(values, root);
-  if (!start || block[*start] != drawn.from) return false;
-  struct Entry {
-    std::uint32_t state = 0;
-    std::size_t from = 0;
-    const Component::Arc* by = nullptr;
-  };
+struct WayEntry {
+  std::uint32_t state = 0;
+  bool has_stepped = false;  // with the label that is asked for
+  std::size_t from = 0;
+};
+
+}  // namespace
+
+// A shortest way from a state to one that stands there, silent but for one step
+// with the label; where that is silent as well, of one step at least.
+std::vector<const Component::Arc*> Component::way(
+    std::uint32_t from, std::uint32_t label,
+    const std::function<bool(std::uint32_t)>& ends) const {
   constexpr std::uint32_t kSilent = LabelledGraph::kSilent;
-  // Breadth first over silent steps within the block.
-  const auto way = [&](std::uint32_t begin,
-                       auto&& ends) -> std::vector<const Component::Arc*> {
-    std::vector<Entry> queue = {{begin, 0, nullptr}};
-    std::vector<bool> seen(component.size(), false);
-    seen[begin] = true;
-    for (std::size_t next = 0; next < queue.size(); ++next) {
-      ask_budget();
-      for (const Component::Arc& arc : component.arcs(queue[next].state)) {
-        if (ends(arc)) {
-          std::vector<const Component::Arc*> steps = {&arc};
-          for (std::size_t at = next; queue[at].by != nullptr;
-               at = queue[at].from) {
-            steps.push_back(queue[at].by);
-          }
-          std::ranges::reverse(steps);
-          return steps;
-        }
-        const bool is_inert =
-            arc.label == kSilent && block[arc.target] == drawn.from;
-        if (!is_inert || seen[arc.target]) continue;
-        seen[arc.target] = true;
-        queue.push_back({arc.target, next, &arc});
+  std::vector<WayEntry> queue = {{from, false, 0}};
+  std::vector<const Arc*> by = {nullptr};
+  std::vector<bool> seen(2 * size(), false);
+  for (std::size_t next = 0; next < queue.size(); ++next) {
+    ask_budget();
+    const WayEntry at = queue[next];
+    for (const Arc& arc : arcs(at.state)) {
+      const bool is_step = arc.label == label && !at.has_stepped;
+      if (!is_step && arc.label != kSilent) continue;
+      const bool has_stepped = at.has_stepped || is_step;
+      const std::size_t place = 2 * std::size_t{arc.target} + has_stepped;
+      if (seen[place]) continue;
+      seen[place] = true;
+      queue.push_back({arc.target, has_stepped, next});
+      by.push_back(&arc);
+      if (!has_stepped || !ends(arc.target)) continue;
+      std::vector<const Arc*> steps;
+      for (std::size_t i = queue.size() - 1; by[i] != nullptr;
+           i = queue[i].from) {
+        steps.push_back(by[i]);
       }
+      std::ranges::reverse(steps);
+      return steps;
     }
-    return {};
+  }
+  return {};
+}
+
+bool Components::take(const Valuation& state, AutomatonId root, Side side,
+                      std::uint32_t edge, const Fire& fire) const {
+  const Component& component = known(root, side);
+  const Component::Drawn& drawn = component.drawn_[edge];
+  const auto start = state_of(state, component);
+  if (!start) return false;
+  const auto back_to = [&](std::uint32_t to) {
+    return component.way(to, LabelledGraph::kSilent,
+                         [to](std::uint32_t end) { return end == to; });
   };
   std::vector<const Component::Arc*> steps;
-  if (drawn.label == kSilent && drawn.from == drawn.to) {
-    const auto comes_back = [&](std::uint32_t to) {
-      return way(to, [&, to](const Component::Arc& arc) {
-        return arc.label == kSilent && arc.target == to;
-      });
-    };
-    steps = comes_back(*start);
-    if (steps.empty()) {
-      steps = way(*start, [&](const Component::Arc& arc) {
-        return arc.label == kSilent && block[arc.target] == drawn.from &&
-               !comes_back(arc.target).empty();
-      });
-      if (steps.empty()) return false;
-      const auto round = comes_back(steps.back()->target);
-      steps.insert(steps.end(), round.begin(), round.end());
-    }
-  } else {
-    steps = way(*start, [&](const Component::Arc& arc) {
-      return arc.label == drawn.label && block[arc.target] == drawn.to;
+  if (!drawn.is_loop) {
+    steps = component.way(*start, drawn.label, [&](std::uint32_t end) {
+      return component.place_of_[end] == drawn.to;
     });
+  } else if (steps = back_to(*start); steps.empty()) {
+    // To where such a loop begins, and round it.
+    steps = component.way(*start, drawn.label, [&](std::uint32_t end) {
+      return !back_to(end).empty();
+    });
+    if (steps.empty()) return false;
+    const auto round = back_to(steps.back()->target);
+    steps.insert(steps.end(), round.begin(), round.end());
   }
+  return !steps.empty() && follow(state, component, steps, fire);
+}
+
+bool Components::follow(const Valuation& state, const Component& component,
+                        const std::vector<const Component::Arc*>& steps,
+                        const Fire& fire) const {
   for (const Component::Arc* step : steps) {
-    if (step->member.child == 0) {
-      const std::uint32_t number =
-          network_.automaton(root).first_edge + step->member.edge;
-      fire(values, number);
-      taken.push_back(number);
-    } else if (!take(values, children_[index(root)][step->member.child - 1],
-                     step->member.edge, taken)) {
-      return false;
-    }
+    const PartMember& member = component.members_[step->member.number];
+    const std::uint32_t place = step->member.edge;
+    const bool is_done =
+        member.component == nullptr
+            ? fire(network_.automaton(member.automaton).first_edge + place)
+            : take(state, member.automaton, member.side, place, fire);
+    if (!is_done) return false;
   }
-  return !steps.empty();
+  return true;
+}
+
+bool Component::is_silent(std::uint32_t state) const {
+  return std::ranges::any_of(arcs(state), [](const Arc& arc) {
+    return arc.label == LabelledGraph::kSilent;
+  });
+}
+
+// First where no member has anything to do that the part does not see; then
+// what each does by itself.
+bool Components::settle(const Valuation& state, AutomatonId root, Side side,
+                        const Fire& fire) const {
+  const Component& component = known(root, side);
+  const auto start = state_of(state, component);
+  if (!start) return false;
+  if (component.is_silent(*start)) {
+    const auto steps = component.way(
+        *start, LabelledGraph::kSilent, [&](std::uint32_t end) {
+          return component.place_of_[end] == component.place_of_[*start] &&
+                 !component.is_silent(end);
+        });
+    if (steps.empty() || !follow(state, component, steps, fire)) return false;
+  }
+  return std::ranges::all_of(
+      component.members_, [&](const PartMember& member) {
+        return member.component == nullptr ||
+               settle(state, member.automaton, member.side, fire);
+      });
 }
 
 }  // namespace btcheck

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -12,80 +13,107 @@
 
 #include "explore/minimise/partition.hpp"
 #include "explore/reduce/call_protocol.hpp"
+#include "explore/state/valuation.hpp"
 #include "model/automata/network.hpp"
 
 namespace btcheck {
 
-// The values of a network's variables, by VariableId.
-using Values = std::vector<int>;
+class Component;
 
-// The subtree below an automaton, looked at from outside: what it does to the
-// variables that others use as well, when and under which conditions; all else
-// that it does is silent. Its states are those of its own variables that any
-// caller can bring about that keeps to the protocol, and of them only one is
-// left of each block of the coarsest divergence-preserving branching
-// bisimulation. Put in the place of the subtree, its automaton makes the
-// network branching bisimilar to what it was (docs/reductions.md).
+// Which part of a network: the subtree of an automaton, or what is outside.
+enum class Side : std::uint8_t { Inside, Outside };
+
+// What a part is made of: automata of the network, and components.
+struct PartMember {
+  AutomatonId automaton{};
+  const Component* component = nullptr;  // that of this side of it
+  Side side = Side::Inside;
+};
+
+// A part of a network, looked at from the rest of it: what it does to the
+// variables that both use, when and under which conditions; all else that it
+// does is silent. The part is a subtree, or all that is outside of one.
+//
+// Its states are those of its own variables that any other part can bring about
+// that keeps to the protocol of calls. Of them one is left of each block of the
+// coarsest divergence-preserving branching bisimulation, and of those in which
+// it goes on silently and in no other way none: what it decides by itself it
+// decides with the step before. In the place of the part, its automaton leaves
+// a network the runs that it had, but for silent steps (docs/reductions.md).
 class Component {
  public:
-  // What takes the place of the automaton of the subtree's root.
   Automaton automaton;
   Variable location;
-  // In which of the states between two calls it is.
+  VariableId location_id{};
+  // Of a subtree: in which of its states between two calls it is.
   Variable memory;
   VariableId memory_id{};
+  // By the value of its memory, of an outside by that of its location: the one
+  // after a unit of time in which it does nothing.
+  std::vector<int> later;
+  // No time passes while it is called.
+  bool is_instant = true;
 
-  // The single edges of the subtree, as places in the automata that they belong
-  // to, that stand for an edge of `automaton`.
+  // A single edge of the part: of one of its members, by its place in that.
   struct Member {
-    std::uint32_t child = 0;  // 0: the root of the subtree, else child - 1
-    std::uint32_t edge = 0;   // of its automaton, or of its component's
+    std::uint32_t number = 0;
+    std::uint32_t edge = 0;
+  };
+  // Where the automaton stands.
+  struct Place {
+    int location = 0;
+    int memory = 0;
   };
 
-  // States of the subtree, and blocks of them.
-  std::size_t size() const { return graph_.size(); }
-  std::size_t blocks() const { return partition_.blocks; }
+  // States of the part, and what is left of them.
+  std::size_t size() const { return place_of_.size(); }
+  std::size_t place_count() const { return places_.size(); }
 
  private:
   friend class Components;
-  friend class OpenSubtree;
+  friend class OpenPart;
 
   struct Arc {
     std::uint32_t label = 0;
     std::uint32_t target = 0;
     Member member;
   };
-  // Where the automaton stands in a block.
-  struct Place {
-    int location = 0;
-    int memory = 0;
-  };
   struct Drawn {
     std::uint32_t label = 0;
-    std::uint32_t from = 0;  // block
-    std::uint32_t to = 0;
+    std::uint32_t to = 0;  // of places_
+    bool is_loop = false;  // silent, and leads back
   };
+  // Of one state: the values of own_.
+  using Values = std::vector<int>;
   struct HashOfValues {
     std::size_t operator()(const Values& values) const;
   };
 
+  std::vector<const Arc*> way(
+      std::uint32_t from, std::uint32_t label,
+      const std::function<bool(std::uint32_t)>& ends) const;
+  bool is_silent(std::uint32_t state) const;
   std::span<const Arc> arcs(std::uint32_t state) const {
     return {arcs_.data() + first_[state], arcs_.data() + first_[state + 1]};
   }
 
+  std::vector<PartMember> members_;
   std::vector<VariableId> own_;  // the variables of its states
   std::unordered_map<Values, std::uint32_t, HashOfValues> states_;
   std::vector<std::uint32_t> first_;
   std::vector<Arc> arcs_;
-  LabelledGraph graph_;
-  Partition partition_;
-  std::vector<Place> places_;  // by block
-  std::vector<Drawn> drawn_;   // by edge of the automaton
+  // By state: where the automaton stands then, as a number of places_; kPassing
+  // where it goes on silently and so is never seen.
+  static constexpr std::uint32_t kPassing = 0xffffffff;
+  std::vector<std::uint32_t> place_of_;
+  std::vector<Place> places_;
+  std::vector<Drawn> drawn_;  // by edge of the automaton
 };
 
 // The components of a network, each made when it is asked for first.
 class Components {
  public:
+  using Place = Component::Place;
   struct Limits {
     std::size_t states = 50'000;
     std::size_t edges = 5'000;  // of one automaton
@@ -104,36 +132,64 @@ class Components {
   const std::vector<AutomatonId>& children(AutomatonId id) const {
     return children_[index(id)];
   }
-  // Null where the subtree cannot be one, or is too large to be.
-  const Component* of(AutomatonId root);
-  // The variables that nobody else touches, but for those of the subtree's own
-  // call and answer.
-  bool is_inside(AutomatonId root, VariableId variable) const;
-  // Behind those of the network: the memories of the components.
+  // Null where the part cannot be one, or is too large to be. The subtree of a
+  // root and what is outside of it are none.
+  const Component* of(AutomatonId root, Side side = Side::Inside);
+  // Whether only this part touches the variable; the calls and answers of the
+  // subtree's root are not asked for.
+  bool is_only_in(AutomatonId root, Side side, VariableId variable) const;
+  bool is_below(AutomatonId node, AutomatonId root) const {
+    return index(node) >= first_inside_[index(root)] &&
+           index(node) <= index(root);
+  }
+  // With those of the components, behind those of the network.
   std::size_t variable_count() const {
-    return network_.variables.size() + network_.automata.size();
+    return network_.variables.size() + 2 * network_.automata.size();
   }
-  VariableId memory_of(AutomatonId root) const {
-    return VariableId{static_cast<std::uint32_t>(network_.variables.size()) +
-                      index(root)};
-  }
+  VariableId memory_of(AutomatonId root) const { return behind(0, root); }
+  VariableId outside_of(AutomatonId root) const { return behind(1, root); }
 
-  // Takes an edge of a component, in values of the network's variables: fires
-  // the single edges that it stands for and appends their numbers. False, and
-  // nothing of use in either, where it cannot be taken.
-  bool take(Values& values, AutomatonId root, std::uint32_t edge,
-            std::vector<std::uint32_t>& taken) const;
-  // An edge of the network itself.
-  void fire(Values& values, std::uint32_t edge) const;
-  std::optional<Component::Place> place(const Values& values,
-                                        AutomatonId root) const;
+  // Where the component that stands for a part stands when the network is in a
+  // state; nothing where it passes.
+  std::optional<Place> place(const Valuation& state, AutomatonId root,
+                             Side side = Side::Inside) const;
+  // Takes an edge of a component in a state of the network: calls fire(edge)
+  // for the single ones that it stands for, one after the other, and each of
+  // them has to change the state. False where it cannot be taken.
+  using Fire = std::function<bool(std::uint32_t)>;
+  bool take(const Valuation& state, AutomatonId root, Side side,
+            std::uint32_t edge, const Fire& fire) const;
+  // Likewise all that the part does by itself where its component stands: no
+  // time passes before.
+  bool settle(const Valuation& state, AutomatonId root, Side side,
+              const Fire& fire) const;
 
  private:
-  friend class OpenSubtree;
+  friend class OpenPart;
 
-  std::optional<std::uint32_t> state_of(const Values& values,
-                                        AutomatonId root) const;
+  // Takes steps of a component's states.
+  bool follow(const Valuation& state, const Component& component,
+              const std::vector<const Component::Arc*>& steps,
+              const Fire& fire) const;
+
+  VariableId behind(std::size_t group, AutomatonId automaton) const {
+    return VariableId{static_cast<std::uint32_t>(
+        network_.variables.size() + group * network_.automata.size() +
+        index(automaton))};
+  }
+  // The clock of an automaton as if it were a variable.
+  VariableId clock_of(AutomatonId automaton) const {
+    return behind(2, automaton);
+  }
+  const Component& known(AutomatonId root, Side side) const {
+    return known_[static_cast<std::size_t>(side)][index(root)]->value();
+  }
+  // Nothing where one of them cannot be had.
+  std::optional<std::vector<PartMember>> members(AutomatonId root, Side side);
   bool may_be_component(AutomatonId root) const;
+  bool is_only_root(AutomatonId automaton) const;
+  std::optional<std::uint32_t> state_of(const Valuation& state,
+                                        const Component& component) const;
 
   const Network& network_;
   const std::vector<std::uint8_t> marks_;
@@ -141,10 +197,11 @@ class Components {
   const CallProtocol protocol_;
   std::vector<std::vector<AutomatonId>> children_;  // by AutomatonId
   std::vector<std::uint32_t> first_inside_;  // by AutomatonId: of its subtree
-  std::vector<bool> has_timer_;              // by AutomatonId
-  // By VariableId: who touches it, the first and the last.
-  std::vector<std::uint32_t> first_user_, last_user_;
-  std::vector<std::optional<std::optional<Component>>> known_;
+  std::vector<std::vector<AutomatonId>> timers_;  // by AutomatonId: its own
+  // By VariableId: the nodes that touch it, in order; none of a variable that
+  // somebody else touches as well.
+  std::vector<std::vector<std::uint32_t>> users_;
+  std::vector<std::optional<std::optional<Component>>> known_[2];
 };
 
 }  // namespace btcheck

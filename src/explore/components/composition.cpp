@@ -1,87 +1,185 @@
 // SPDX-License-Identifier: MIT
 #include "explore/components/composition.hpp"
 
+#include <string>
 #include <utility>
 
 namespace btcheck {
 
-Composition::Composition(Components& components, std::vector<bool> kept)
+Composition::Composition(Components& components, std::vector<bool> kept,
+                         bool keeps_root)
     : components_(&components),
       network_(components.network()),
       is_component_(network_.automata.size(), false),
       is_inside_(network_.automata.size(), false),
       hidden_(network_.variables.size(), false) {
+  const Network& whole = components.network();
   const CallProtocol& protocol = components.protocol();
-  for (std::uint32_t a = 0; a < kept.size(); ++a) {
+  const auto count = static_cast<std::uint32_t>(whole.automata.size());
+  const auto lowest = lowest_above(kept);
+  for (std::uint32_t a = 0; a < count; ++a) {
     if (!kept[a]) continue;
     for (auto above = protocol.parent(AutomatonId{a});
          above && !kept[index(*above)]; above = protocol.parent(*above)) {
       kept[index(*above)] = true;
     }
   }
-  for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
-    Variable unused{VariableRole::Local, "memory", 0, 0, 0, {}, AutomatonId{a}};
-    network_.variables.push_back(std::move(unused));
+  const Variable unused{VariableRole::Local, "memory", 0, 0, 0, {}, {}};
+  network_.variables.resize(components.variable_count(), unused);
+  if (keeps_root || !lowest || !place_outside_of(*lowest)) {
+    for (std::uint32_t a = 0; a < count; ++a) {
+      const bool is_root = whole.automata[a].kind == AutomatonKind::Node &&
+                           !protocol.parent(AutomatonId{a});
+      if (is_root) place_below(AutomatonId{a}, kept);
+    }
+  } else {
+    place_below(*lowest, kept);
   }
-  // From above: what stands above a component does not.
-  for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
-    if (!protocol.parent(AutomatonId{a})) place(AutomatonId{a}, kept);
+  for (std::uint32_t a = 0; a < count; ++a) {
+    const Automaton& timer = whole.automata[a];
+    if (timer.kind != AutomatonKind::Timer) continue;
+    const AutomatonId node = network_.node_automaton[index(timer.node)];
+    // The parent of an outside is not in its place any more.
+    if (index(node) < count && !is_inside_[index(node)]) continue;
+    leave_out(AutomatonId{a});
+    for (std::uint32_t e = 0; e < timer.edges.size(); ++e) {
+      hidden_timers_.push_back(timer.first_edge + e);
+    }
   }
   network_.number_edges();
 }
 
-bool Composition::place(AutomatonId root, const std::vector<bool>& kept) {
+// The lowest automaton with all that is kept in its subtree.
+std::optional<AutomatonId> Composition::lowest_above(
+    const std::vector<bool>& kept) const {
+  std::optional<AutomatonId> lowest;
+  for (std::uint32_t a = 0; a < kept.size(); ++a) {
+    if (!kept[a]) continue;
+    if (!lowest) lowest = AutomatonId{a};
+    while (lowest && !components_->is_below(AutomatonId{a}, *lowest)) {
+      lowest = components_->protocol().parent(*lowest);
+    }
+    if (!lowest) return std::nullopt;
+  }
+  return lowest;
+}
+
+void Composition::leave_out(AutomatonId automaton) {
+  is_inside_[index(automaton)] = true;
+  network_.automata[index(automaton)].edges.clear();
+  ++left_out_;
+}
+
+// What is inside a component keeps its first value.
+void Composition::hide(AutomatonId root, Side side) {
+  const Network& whole = components_->network();
+  const VariableId status =
+      whole.node_status[index(whole.automaton(root).node)];
+  for (std::uint32_t v = 0; v < whole.variables.size(); ++v) {
+    const VariableId id{v};
+    const bool is_seen = id == status || id == whole.automaton(root).gate;
+    if (is_seen || !components_->is_only_in(root, side, id)) continue;
+    Variable& variable = network_.variables[v];
+    variable.min = variable.max = variable.initial;
+    hidden_[v] = true;
+  }
+}
+
+// It changes with time: a timer's edges are taken when they are due, before
+// everything else.
+void Composition::add_clock(const Component& component, VariableId location) {
+  if (network_.ticks == TickSemantics::None) return;
+  Automaton clock;
+  clock.kind = AutomatonKind::Timer;
+  clock.name = component.automaton.name + "_time";
+  clock.node = component.automaton.node;
+  clock.location = location;
+  for (std::size_t m = 0; m < component.later.size(); ++m) {
+    clock.locations.push_back({"place_" + std::to_string(m)});
+    const int later = component.later[m];
+    if (later == static_cast<int>(m)) continue;
+    Edge& edge = clock.edges.emplace_back();
+    edge.source = LocationId{static_cast<std::uint32_t>(m)};
+    edge.target = LocationId{static_cast<std::uint32_t>(later)};
+    edge.when = {1, 1};
+  }
+  if (!clock.edges.empty()) network_.automata.push_back(std::move(clock));
+}
+
+bool Composition::place_outside_of(AutomatonId root) {
+  const Component* component = components_->of(root, Side::Outside);
+  if (component == nullptr) return false;
+  const Network& whole = components_->network();
+  for (std::uint32_t a = 0; a < whole.automata.size(); ++a) {
+    const bool is_node = whole.automata[a].kind == AutomatonKind::Node;
+    if (is_node && !components_->is_below(AutomatonId{a}, root)) {
+      leave_out(AutomatonId{a});
+    }
+  }
+  hide(root, Side::Outside);
+  inner_ = root;
+  outside_ = static_cast<std::uint32_t>(network_.automata.size());
+  network_.automata.push_back(component->automaton);
+  // Its clock finds it by its node.
+  network_.node_automaton[index(component->automaton.node)] =
+      AutomatonId{outside_};
+  network_.variables[index(component->location_id)] = component->location;
+  add_clock(*component, component->location_id);
+  return true;
+}
+
+void Composition::place_below(AutomatonId root, const std::vector<bool>& kept) {
   const Component* component =
       kept[index(root)] ? nullptr : components_->of(root);
   if (component == nullptr) {
     for (const AutomatonId child : components_->children(root)) {
-      place(child, kept);
+      place_below(child, kept);
     }
-    return false;
+    return;
   }
-  const Network& whole = components_->network();
   std::vector<AutomatonId> inside = {root};
   for (std::size_t next = 0; next < inside.size(); ++next) {
     for (const AutomatonId child : components_->children(inside[next])) {
       inside.push_back(child);
     }
-    const auto number = index(inside[next]);
-    is_inside_[number] = true;
-    network_.automata[number].edges.clear();
+    leave_out(inside[next]);
   }
-  left_out_ += inside.size();
-  const NodeId node = whole.automaton(root).node;
-  for (std::uint32_t v = 0; v < whole.variables.size(); ++v) {
-    const VariableId id{v};
-    const bool is_seen = id == whole.node_status[index(node)] ||
-                         id == whole.automaton(root).gate;
-    if (is_seen || !components_->is_inside(root, id)) continue;
-    Variable& variable = network_.variables[v];
-    variable.min = variable.max = variable.initial;
-    hidden_[v] = true;
-  }
+  hide(root, Side::Inside);
   is_component_[index(root)] = true;
   network_.automata[index(root)] = component->automaton;
-  network_.variables[index(component->automaton.location)] =
-      component->location;
+  network_.variables[index(component->location_id)] = component->location;
   network_.variables[index(component->memory_id)] = component->memory;
-  return true;
+  add_clock(*component, component->memory_id);
 }
 
-bool Composition::take(Values& values, std::uint32_t edge,
-                       std::vector<std::uint32_t>& taken) const {
+bool Composition::take(const Valuation& state, std::uint32_t edge,
+                       const Components::Fire& fire) const {
   const Automaton& owner = network_.owner_of_edge(edge);
   const auto number =
       static_cast<std::uint32_t>(&owner - network_.automata.data());
-  const std::uint32_t place = edge - owner.first_edge;
-  if (is_component_[number]) {
-    return components_->take(values, AutomatonId{number}, place, taken);
+  const Network& whole = components_->network();
+  if (inner_ && number == outside_) {
+    return components_->take(state, *inner_, Side::Outside,
+                             edge - owner.first_edge, fire);
   }
-  const std::uint32_t whole =
-      components_->network().automata[number].first_edge + place;
-  components_->fire(values, whole);
-  taken.push_back(whole);
-  return true;
+  if (number >= whole.automata.size()) return true;  // a clock
+  const std::uint32_t place = edge - owner.first_edge;
+  return is_component_[number]
+             ? components_->take(state, AutomatonId{number}, Side::Inside, place,
+                                 fire)
+             : fire(whole.automata[number].first_edge + place);
+}
+
+bool Composition::settle(const Valuation& state,
+                         const Components::Fire& fire) const {
+  for (std::uint32_t a = 0; a < is_component_.size(); ++a) {
+    const bool is_settled =
+        !is_component_[a] ||
+        components_->settle(state, AutomatonId{a}, Side::Inside, fire);
+    if (!is_settled) return false;
+  }
+  return !inner_ ||
+         components_->settle(state, *inner_, Side::Outside, fire);
 }
 
 std::optional<std::uint32_t> Composition::edge_here(std::uint32_t whole) const {

@@ -18,9 +18,10 @@ namespace btcheck {
 // first values. Automata keep their numbers, edges do not.
 class Composition {
  public:
-  // `kept`: by automaton, what has to stand as it is; what lies above it stands
-  // as well. The components must outlive this.
-  Composition(Components& components, std::vector<bool> kept);
+  // `kept`: by automaton, what has to stand as it is; what lies between stands
+  // as well. With `keeps_root` all that lies above does, else it is a component
+  // where it can be one. The components must outlive this.
+  Composition(Components& components, std::vector<bool> kept, bool keeps_root);
 
   const Network& network() const { return network_; }
   // How many automata the components stand for.
@@ -29,21 +30,36 @@ class Composition {
   // By VariableId of the whole: it stands in a component.
   const std::vector<bool>& hidden() const { return hidden_; }
 
-  // Takes an edge of this network in values of the whole one: see
+  // Takes an edge of this network in a state of the whole one; see
   // Components::take.
-  bool take(Values& values, std::uint32_t edge,
-            std::vector<std::uint32_t>& taken) const;
+  bool take(const Valuation& state, std::uint32_t edge,
+            const Components::Fire& fire) const;
+  // To be called before time passes: see Components::settle.
+  bool settle(const Valuation& state, const Components::Fire& fire) const;
+  // Edges of timers of the whole network that stand in components: they are
+  // taken as soon as they can be.
+  const std::vector<std::uint32_t>& hidden_timers() const {
+    return hidden_timers_;
+  }
   // Of an edge of the whole network that stands here as well.
   std::optional<std::uint32_t> edge_here(std::uint32_t whole) const;
 
  private:
-  bool place(AutomatonId root, const std::vector<bool>& kept);
+  std::optional<AutomatonId> lowest_above(const std::vector<bool>& kept) const;
+  void leave_out(AutomatonId automaton);
+  void hide(AutomatonId root, Side side);
+  void place_below(AutomatonId root, const std::vector<bool>& kept);
+  bool place_outside_of(AutomatonId root);
+  void add_clock(const Component& component, VariableId location);
 
   Components* components_;
   Network network_;
   std::vector<bool> is_component_;  // by AutomatonId
   std::vector<bool> is_inside_;     // by AutomatonId: in one, or one
+  std::optional<AutomatonId> inner_;  // all that is outside of it is left out
+  std::uint32_t outside_ = 0;         // that is this automaton then
   std::vector<bool> hidden_;
+  std::vector<std::uint32_t> hidden_timers_;
   std::size_t left_out_ = 0;
 };
 

@@ -1,0 +1,653 @@
+// SPDX-License-Identifier: MIT
+//
+// Variables that the rest touches as well have no values here: what an edge asks
+// of them and assigns to them is put on its label, with the values of the part's
+// own variables put in. So a state is one of the part alone, and the graph is
+// right beside whatever the rest is. Too many states would be found if it could
+// do anything: reset a node that still runs, say. So the calls and answers of
+// the subtree's root are followed beside the states, and the rest takes part in
+// them only as the edges of its automata do.
+#include "explore/components/open_part.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <set>
+
+#include "explore/components/residual.hpp"
+#include "explore/state/accesses.hpp"
+#include "text/budget.hpp"
+
+namespace btcheck {
+namespace {
+
+void append(std::vector<std::int32_t>& key, const Expression& expression) {
+  for (const Term& term : expression.terms()) {
+    key.push_back(static_cast<std::int32_t>(term.operation));
+    key.push_back(term.operand);
+  }
+  key.push_back(-1);
+}
+
+}  // namespace
+
+OpenPart::OpenPart(const Components& all, AutomatonId root, Side side,
+                   std::vector<PartMember> members)
+    : all_(all),
+      root_(root),
+      side_(side),
+      members_(std::move(members)),
+      automaton_(all.network_.automaton(members_[0].automaton)),
+      timers_(all.timers_[index(members_[0].automaton)]),
+      status_(all.network_.node_status[index(all.network_.automaton(root)
+                                                 .node)]),
+      gate_(*all.network_.automaton(root).gate),
+      place_of_(all.variable_count() + all.network_.automata.size(), -1) {
+  collect_own();
+  collect_changes();
+}
+
+const Automaton& OpenPart::automaton_of(const PartMember& member) const {
+  return member.component == nullptr ? automaton_ : member.component->automaton;
+}
+
+VariableId OpenPart::location_of(const PartMember& member) const {
+  return automaton_of(member).location;
+}
+
+std::optional<std::size_t> OpenPart::own(VariableId variable) const {
+  const int place = place_of_[index(variable)];
+  return place < 0 ? std::nullopt
+                   : std::optional(static_cast<std::size_t>(place));
+}
+
+void OpenPart::collect_own() {
+  const auto add = [&](VariableId id, const Variable& range) {
+    place_of_[index(id)] = static_cast<int>(own_.size());
+    own_.push_back(id);
+    ranges_.push_back(range);
+  };
+  for (const PartMember& member : members_) {
+    if (member.component == nullptr) continue;
+    add(member.component->location_id, member.component->location);
+    if (member.side == Side::Inside) {
+      add(member.component->memory_id, member.component->memory);
+    }
+  }
+  for (std::uint32_t v = 0; v < network().variables.size(); ++v) {
+    const VariableId id{v};
+    if (id == status_ || id == gate_) continue;
+    if (!all_.is_only_in(root_, side_, id)) continue;
+    const bool is_hidden =
+        std::ranges::any_of(members_, [&](const PartMember& member) {
+          return member.component != nullptr &&
+                 all_.is_only_in(member.automaton, member.side, id);
+        });
+    if (!is_hidden) add(id, network().variables[v]);
+  }
+  const auto add_clock = [&](AutomatonId id) {
+    Variable clock;
+    for (const Edge& edge : network().automaton(id).edges) {
+      clock.max = std::max(clock.max, edge.when.greatest_clock());
+    }
+    if (clock.max > 0) add(all_.clock_of(id), clock);
+  };
+  add_clock(members_[0].automaton);
+  for (const AutomatonId timer : timers_) add_clock(timer);
+}
+
+void OpenPart::collect_changes() {
+  const Variable& range = network().variable(status_);
+  std::set<std::pair<int, int>> known;
+  for (std::uint32_t a = 0; a < network().automata.size(); ++a) {
+    const bool is_inside = all_.is_below(AutomatonId{a}, root_);
+    if (is_inside == (side_ == Side::Inside)) continue;
+    for (const Edge& edge : network().automata[a].edges) {
+      for (const Assignment& update : edge.updates) {
+        if (update.variable != status_) continue;
+        const auto value = constant_value(update);
+        for (int to = range.min; to <= range.max; ++to) {
+          if (value && *value != to) continue;
+          for (int from = range.min; from <= range.max; ++from) {
+            if (excludes(edge.guard, status_, from)) continue;
+            if (known.emplace(from, to).second) changes_.emplace_back(from, to);
+          }
+        }
+      }
+    }
+  }
+}
+
+std::optional<std::uint32_t> OpenPart::state_number(Values values) {
+  const auto [known, is_new] = numbers_.try_emplace(
+      values, static_cast<std::uint32_t>(states_.size()));
+  if (is_new) {
+    if (states_.size() >= all_.limits_.states) return std::nullopt;
+    states_.push_back({std::move(values), {}, false, {}});
+  }
+  return known->second;
+}
+
+// Steps that nobody notices have label 0.
+std::uint32_t OpenPart::label_number(Label label) {
+  const bool is_untimed = network().ticks == TickSemantics::None;
+  const bool is_silent = is_always(label.guard) && label.updates.empty() &&
+                         label.mark == 0 &&
+                         (is_untimed || label.when.is_urgent());
+  if (is_silent) return LabelledGraph::kSilent;
+  std::vector<std::int32_t> key = {label.when.lower, label.when.upper,
+                                   label.mark};
+  append(key, label.guard);
+  for (const Assignment& update : label.updates) {
+    key.push_back(static_cast<std::int32_t>(index(update.variable)));
+    append(key, update.value);
+  }
+  const auto [known, is_new] = label_numbers_.try_emplace(
+      std::move(key), static_cast<std::uint32_t>(labels_.size()) + kFirstLabel);
+  if (is_new) labels_.push_back(std::move(label));
+  return known->second;
+}
+
+bool OpenPart::expand(std::uint32_t state) {
+  states_[state].is_expanded = true;
+  for (std::uint32_t number = 0; number < members_.size(); ++number) {
+    const Automaton& moving = automaton_of(members_[number]);
+    const auto value_of = [&](VariableId variable) {
+      return states_[state].values[*own(variable)];
+    };
+    // That of the subtree itself is open while anything moves in it.
+    const bool is_closed = moving.gate && moving.gate != gate_ &&
+                           value_of(*moving.gate) == 0;
+    if (is_closed) continue;
+    const Variable& location = ranges_[*own(moving.location)];
+    const LocationId here{
+        static_cast<std::uint32_t>(value_of(moving.location) - location.min)};
+    for (std::uint32_t e = 0; e < moving.edges.size(); ++e) {
+      if (moving.edges[e].source != here) continue;
+      if (!expand(state, {number, e})) return false;
+    }
+  }
+  return true;
+}
+
+// A variable of others whose value the part keeps is told apart by it.
+bool OpenPart::expand(std::uint32_t state, Component::Member which) {
+  ask_budget();
+  const Edge& edge = automaton_of(members_[which.number]).edges[which.edge];
+  Interval when = edge.when;
+  if (when.needs_clock() && network().ticks != TickSemantics::None) {
+    const int clock =
+        states_[state].values[*own(all_.clock_of(members_[0].automaton))];
+    if (clock < when.lower) return true;
+    when = clock == when.upper ? kAtOnce : kAnyTime;
+  }
+  std::vector<VariableId> kept;
+  std::vector<VariableId> assigned;
+  for (const Assignment& update : edge.updates) {
+    if (!own(update.variable)) {
+      assigned.push_back(update.variable);
+      continue;
+    }
+    for (const Term& term : update.value.terms()) {
+      if (term.operation != Operation::Variable) continue;
+      const VariableId read{static_cast<std::uint32_t>(term.operand)};
+      if (own(read)) continue;
+      if (std::ranges::find(assigned, read) != assigned.end()) return false;
+      if (std::ranges::find(kept, read) == kept.end()) kept.push_back(read);
+    }
+  }
+  std::uint64_t count = 1;
+  for (const VariableId each : kept) {
+    if (index(each) >= network().variables.size()) return false;
+    count *= static_cast<std::uint64_t>(network().variable(each).domain_size());
+    if (count > kMostRead) return false;
+  }
+  for (std::uint64_t n = 0; n < count; ++n) {
+    std::vector<std::pair<VariableId, int>> read;
+    std::uint64_t rest = n;
+    for (const VariableId each : kept) {
+      const Variable& range = network().variable(each);
+      const auto size = static_cast<std::uint64_t>(range.domain_size());
+      read.emplace_back(each, range.min + static_cast<int>(rest % size));
+      rest /= size;
+    }
+    if (!add_arc(state, which, when, read)) return false;
+  }
+  return true;
+}
+
+bool OpenPart::add_arc(std::uint32_t state, Component::Member which,
+                       const Interval& when,
+                       const std::vector<std::pair<VariableId, int>>& read) {
+  const PartMember& member = members_[which.number];
+  const Edge& edge = automaton_of(member).edges[which.edge];
+  const bool is_marked =
+      member.component == nullptr && !all_.marks_.empty() &&
+      all_.marks_[automaton_.first_edge + which.edge] != 0;
+  Values values = states_[state].values;
+  const KnownValue known =
+      [&](VariableId variable) -> std::optional<std::int64_t> {
+    if (variable == gate_ && side_ == Side::Inside) return 1;
+    if (const auto place = own(variable)) return values[*place];
+    return std::nullopt;
+  };
+  Label label;
+  label.when = when;
+  label.mark = is_marked || edge.is_open_round ? 1 : 0;
+  label.guard = residual(edge.guard, known);
+  if (is_never(label.guard)) return true;
+  if (is_always(label.guard)) label.guard = {};
+  const KnownValue told =
+      [&](VariableId variable) -> std::optional<std::int64_t> {
+    for (const auto& [each, value] : read) {
+      if (each == variable) return value;
+    }
+    return known(variable);
+  };
+  for (const auto& [variable, value] : read) {
+    label.guard = both(std::move(label.guard), equals(variable, value));
+  }
+  const auto put = [&](std::size_t place, std::int64_t value) {
+    const Variable& range = ranges_[place];
+    if (value < range.min || value > range.max) return false;
+    values[place] = static_cast<int>(value);
+    return true;
+  };
+  const auto start_clock = [&](AutomatonId id) {
+    if (const auto clock = own(all_.clock_of(id))) values[*clock] = 0;
+  };
+  for (const Assignment& update : edge.updates) {
+    const auto place = own(update.variable);
+    Expression value = residual(update.value, place ? told : known);
+    if (!place) {
+      label.updates.push_back({update.variable, std::move(value)});
+      continue;
+    }
+    const auto constant = value.is_true()
+                              ? std::optional<std::int32_t>(1)
+                              : value.only(Operation::Constant);
+    if (!constant || !put(*place, *constant)) return false;
+    for (const AutomatonId timer : timers_) {
+      if (network().automaton(timer).location == update.variable) {
+        start_clock(timer);
+      }
+    }
+  }
+  const std::size_t place = *own(location_of(member));
+  if (!put(place, ranges_[place].min + static_cast<int>(index(edge.target)))) {
+    return false;
+  }
+  if (member.component == nullptr) start_clock(member.automaton);
+  const auto target = state_number(std::move(values));
+  if (!target) return false;
+  const Arc arc{label_number(std::move(label)), *target, which, false};
+  states_[state].arcs.push_back(arc);
+  return true;
+}
+
+bool OpenPart::is_at_rest(const Values& values) const {
+  const std::size_t location = *own(automaton_.location);
+  return side_ == Side::Inside &&
+         values[location] == ranges_[location].min;
+}
+
+// Components move on by their own tables; timers that have counted so far are
+// due at once, before anything else happens.
+std::optional<Component::Values> OpenPart::later(Values values) const {
+  for (const PartMember& member : members_) {
+    if (member.component == nullptr) continue;
+    const Component& component = *member.component;
+    int& stands_at =
+        values[*own(member.side == Side::Inside ? component.memory_id
+                                                : component.location_id)];
+    stands_at = component.later[static_cast<std::size_t>(stands_at)];
+  }
+  const auto count = [&](AutomatonId id, bool is_timer) {
+    const Automaton& counting = network().automaton(id);
+    const auto clock = own(all_.clock_of(id));
+    if (!clock) return true;
+    const std::size_t place = *own(counting.location);
+    const Edge* due = nullptr;
+    int greatest = 0;
+    for (const Edge& edge : counting.edges) {
+      const int source =
+          ranges_[place].min + static_cast<int>(index(edge.source));
+      if (values[place] != source) continue;
+      greatest = std::max(greatest, edge.when.greatest_clock());
+      if (!is_timer || values[*clock] + 1 != edge.when.upper) continue;
+      if (due != nullptr) return false;
+      due = &edge;
+    }
+    if (values[*clock] < greatest) ++values[*clock];
+    if (due == nullptr) return true;
+    values[place] = ranges_[place].min + static_cast<int>(index(due->target));
+    values[*clock] = 0;
+    return true;
+  };
+  bool is_known = count(members_[0].automaton, false);
+  for (const AutomatonId timer : timers_) {
+    is_known = is_known && count(timer, true);
+  }
+  return is_known ? std::optional(std::move(values)) : std::nullopt;
+}
+
+// While the subtree is called its parent waits; nobody else touches the two.
+template <class Found>
+void OpenPart::for_each_change(const Call& call, const Values& values,
+                               Found found) const {
+  const bool may_change =
+      side_ == Side::Inside ? is_at_rest(values) : call.is_called;
+  if (!may_change) return;
+  for (const auto& [from, to] : changes_) {
+    if (from == call.status) found(Call{to, call.is_called});
+  }
+  if (side_ == Side::Outside) found(Call{call.status, false});
+}
+
+// Beside each state the calls are followed that lead to it.
+bool OpenPart::explore() {
+  const Variable& range = network().variable(status_);
+  const bool is_inside = side_ == Side::Inside;
+  const std::size_t calls = 2 * static_cast<std::size_t>(range.domain_size());
+  std::vector<bool> seen;
+  std::deque<std::pair<std::uint32_t, Call>> open;
+  const auto found = [&](std::uint32_t state, const Call& call) {
+    const std::size_t place =
+        state * calls + 2 * static_cast<std::size_t>(call.status - range.min) +
+        call.is_called;
+    if (place >= seen.size()) seen.resize((place + 1) * 2, false);
+    if (seen[place]) return;
+    seen[place] = true;
+    open.emplace_back(state, call);
+  };
+  Values initial;
+  for (const Variable& each : ranges_) initial.push_back(each.initial);
+  const auto first = state_number(std::move(initial));
+  if (!first) return false;
+  found(*first, {range.initial, false});
+  const bool is_timed = network().ticks != TickSemantics::None;
+  const bool waits_instantly =
+      is_inside || all_.known(root_, Side::Inside).is_instant;
+  while (!open.empty()) {
+    const auto [state, call] = open.front();
+    open.pop_front();
+    if (!states_[state].is_expanded && !expand(state)) return false;
+    const bool rests = is_at_rest(states_[state].values);
+    for_each_change(call, states_[state].values,
+                    [&, state = state](const Call& to) { found(state, to); });
+    const KnownValue known =
+        [&, call = call](VariableId variable) -> std::optional<std::int64_t> {
+      if (variable == status_) return call.status;
+      if (variable == gate_ && !is_inside) return call.is_called ? 1 : 0;
+      return std::nullopt;
+    };
+    bool is_urgent = false;
+    for (Arc& arc : states_[state].arcs) {
+      if (arc.label == LabelledGraph::kSilent) {
+        arc.is_used = is_urgent = true;
+        found(arc.target, call);
+        continue;
+      }
+      const Label& label = labels_[arc.label - kFirstLabel];
+      const Expression guard = residual(label.guard, known);
+      if (is_never(guard)) continue;
+      arc.is_used = true;
+      is_urgent |= is_always(guard) && label.when.is_urgent();
+      Call after = call;
+      bool is_status_known = true;
+      for (const Assignment& update : label.updates) {
+        if (update.variable != status_ && update.variable != gate_) continue;
+        const auto value =
+            residual(update.value, known).only(Operation::Constant);
+        if (update.variable == gate_) {
+          if (!value) return false;
+          after.is_called = !is_inside && *value != 0;
+        } else if (value) {
+          after.status = *value;
+        } else {
+          is_status_known = false;
+        }
+      }
+      for (int each = range.min; each <= range.max; ++each) {
+        if (is_status_known && each != after.status) continue;
+        found(arc.target, {each, after.is_called});
+      }
+    }
+    if (!is_timed) continue;
+    // In a subtree that is called, time may pass where it changes nothing.
+    const bool waits = is_inside ? !rests && !is_urgent
+                                 : !is_urgent && !(call.is_called &&
+                                                   waits_instantly);
+    if (!rests && !waits) continue;
+    auto values = later(states_[state].values);
+    if (!values) return false;
+    const auto after_time = state_number(std::move(*values));
+    if (!after_time) return false;
+    if (is_inside && !rests) {
+      if (*after_time != state) return false;
+      is_instant_ = false;
+      continue;
+    }
+    states_[state].later = *after_time;
+    found(*after_time, call);
+  }
+  return true;
+}
+
+LabelledGraph OpenPart::graph() const {
+  LabelledGraph graph;
+  std::vector<LabelledGraph::Arc> arcs;
+  for (std::uint32_t s = 0; s < states_.size(); ++s) {
+    arcs.clear();
+    bool is_quiet = true;
+    for (const Arc& arc : states_[s].arcs) {
+      if (!arc.is_used) continue;
+      is_quiet = is_quiet && arc.label != LabelledGraph::kSilent;
+      arcs.push_back({arc.label, arc.target});
+    }
+    if (is_quiet) arcs.push_back({kQuiet, s});
+    if (const auto later = states_[s].later) arcs.push_back({kTime, *later});
+    graph.add_state(arcs);
+  }
+  return graph;
+}
+
+namespace {
+
+// A graph without the states that go on silently and in no other way, and with
+// equivalent ones as one. Nothing of a state that nobody has called is silent.
+struct Minimal {
+  LabelledGraph graph;
+  std::vector<std::uint32_t> state_of;  // by state of the graph before
+};
+
+constexpr std::uint32_t kPassing = 0xffffffff;
+
+Minimal quotient_of(const LabelledGraph& graph) {
+  Minimal made;
+  Partition blocks = coarsest_partition(graph, Equivalence::Branching);
+  made.graph = quotient(graph, blocks, Equivalence::Branching);
+  made.state_of = std::move(blocks.block);
+  return made;
+}
+
+// By state: those that a silent way ends in, through states that pass.
+class Ends {
+ public:
+  Ends(const LabelledGraph& graph, std::uint32_t time, std::uint32_t initial)
+      : graph_(graph), ends_(graph.size()), is_kept_(graph.size(), false) {
+    is_kept_[initial] = true;
+    for (std::uint32_t s = 0; s < graph.size(); ++s) {
+      for (const auto& arc : graph.arcs(s)) {
+        if (arc.label == time) is_kept_[arc.target] = true;
+      }
+    }
+  }
+
+  // What time leads to is one state: nothing is decided with a step of time.
+  bool passes(std::uint32_t state) const {
+    const auto arcs = graph_.arcs(state);
+    return !is_kept_[state] && !arcs.empty() && std::ranges::all_of(arcs, [&](const auto& arc) {
+      return arc.label == LabelledGraph::kSilent && arc.target != state;
+    });
+  }
+  const std::vector<std::uint32_t>& of(std::uint32_t state) {
+    std::vector<std::uint32_t>& ends = ends_[state];
+    if (!ends.empty()) return ends;
+    if (!passes(state)) return ends = {state};
+    // Beyond silent loops of one state there are none (partition.cpp).
+    std::vector<std::uint32_t> found;
+    for (const auto& arc : graph_.arcs(state)) {
+      const auto& behind = of(arc.target);
+      found.insert(found.end(), behind.begin(), behind.end());
+    }
+    std::ranges::sort(found);
+    found.erase(std::ranges::unique(found).begin(), found.end());
+    return ends_[state] = std::move(found);
+  }
+
+ private:
+  const LabelledGraph& graph_;
+  std::vector<std::vector<std::uint32_t>> ends_;
+  std::vector<bool> is_kept_;
+};
+
+Minimal minimal(const LabelledGraph& graph, std::uint32_t time) {
+  Minimal first = quotient_of(graph);
+  Ends ends(first.graph, time, first.state_of[0]);
+  std::vector<std::uint32_t> left(first.graph.size(), kPassing);
+  std::uint32_t count = 0;
+  for (std::uint32_t s = 0; s < first.graph.size(); ++s) {
+    if (!ends.passes(s)) left[s] = count++;
+  }
+  LabelledGraph without;
+  std::vector<LabelledGraph::Arc> arcs;
+  for (std::uint32_t s = 0; s < first.graph.size(); ++s) {
+    if (left[s] == kPassing) continue;
+    arcs.clear();
+    for (const auto& arc : first.graph.arcs(s)) {
+      for (const std::uint32_t end : ends.of(arc.target)) {
+        arcs.push_back({arc.label, left[end]});
+      }
+    }
+    std::ranges::sort(arcs);
+    arcs.erase(std::ranges::unique(arcs).begin(), arcs.end());
+    without.add_state(arcs);
+  }
+  Minimal made = quotient_of(without);
+  std::vector<std::uint32_t> state_of;
+  for (const std::uint32_t block : first.state_of) {
+    state_of.push_back(left[block] == kPassing ? kPassing
+                                               : made.state_of[left[block]]);
+  }
+  made.state_of = std::move(state_of);
+  return made;
+}
+
+}  // namespace
+
+std::optional<Component> OpenPart::drawn() {
+  const bool is_inside = side_ == Side::Inside;
+  Component made;
+  made.is_instant = is_instant_;
+  made.memory_id = all_.memory_of(root_);
+  made.location_id = is_inside ? automaton_.location : all_.outside_of(root_);
+  Minimal small = minimal(graph(), kTime);
+  const auto count = static_cast<std::uint32_t>(small.graph.size());
+  std::vector<bool> is_rest(count, false);
+  for (std::uint32_t s = 0; s < states_.size(); ++s) {
+    if (small.state_of[s] == kPassing) continue;
+    is_rest[small.state_of[s]] = is_at_rest(states_[s].values);
+  }
+  Automaton& automaton = made.automaton;
+  automaton.kind = AutomatonKind::Node;
+  automaton.name = automaton_.name;
+  automaton.node = automaton_.node;
+  automaton.location = made.location_id;
+  if (is_inside) {
+    automaton.gate = gate_;
+    automaton.locations.push_back({"start_", LocationRole::Start, {}});
+  }
+  int memories = 0;
+  for (std::uint32_t p = 0; p < count; ++p) {
+    if (is_rest[p]) {
+      made.places_.push_back({0, memories++});
+      continue;
+    }
+    made.places_.push_back({static_cast<int>(automaton.locations.size()), 0});
+    automaton.locations.push_back(
+        {"place_" + std::to_string(p), LocationRole::Inner, {}});
+  }
+  const Component::Place begin = made.places_[small.state_of[0]];
+  made.location = {VariableRole::Location, "location", 0,
+                   static_cast<int>(automaton.locations.size()) - 1,
+                   begin.location, {}, {}};
+  made.memory = {VariableRole::Local, "memory", 0, std::max(0, memories - 1),
+                 begin.memory, {}, {}};
+  const auto in_time = [&](const Component::Place& place) {
+    return is_inside ? place.memory : place.location;
+  };
+  made.later.resize(is_inside ? static_cast<std::size_t>(memories) : count);
+  for (std::size_t i = 0; i < made.later.size(); ++i) {
+    made.later[i] = static_cast<int>(i);
+  }
+  for (std::uint32_t p = 0; p < count; ++p) {
+    const Component::Place from = made.places_[p];
+    for (const LabelledGraph::Arc& arc : small.graph.arcs(p)) {
+      const Component::Place to = made.places_[arc.target];
+      if (arc.label == kTime) {
+        made.later[static_cast<std::size_t>(in_time(from))] = in_time(to);
+      }
+      if (arc.label == kQuiet || arc.label == kTime) continue;
+      if (automaton.edges.size() >= all_.limits_.edges) return std::nullopt;
+      Edge edge;
+      edge.source = LocationId{static_cast<std::uint32_t>(from.location)};
+      edge.target = LocationId{static_cast<std::uint32_t>(to.location)};
+      if (arc.label != LabelledGraph::kSilent) {
+        const Label& label = labels_[arc.label - kFirstLabel];
+        edge.when = label.when;
+        edge.guard = label.guard;
+        edge.updates = label.updates;
+        edge.is_open_round = label.mark != 0;
+      }
+      if (is_rest[p]) {
+        Expression here = differs(gate_, 0);
+        if (memories > 1) {
+          here = both(std::move(here), equals(made.memory_id, from.memory));
+        }
+        edge.guard = both(std::move(here), std::move(edge.guard));
+      }
+      if (memories > 1 && (is_rest[p] || is_rest[arc.target])) {
+        edge.updates.push_back(
+            {made.memory_id, Expression::constant(to.memory)});
+      }
+      automaton.edges.push_back(std::move(edge));
+      const bool is_loop =
+          arc.label == LabelledGraph::kSilent && arc.target == p;
+      made.drawn_.push_back({arc.label, arc.target, is_loop});
+    }
+  }
+  // Else time writes it as well.
+  const bool is_timeless = std::ranges::all_of(
+      made.later, [m = 0](int to) mutable { return to == m++; });
+  if (is_inside && is_timeless) automaton.locals = {made.memory_id};
+  made.members_ = members_;
+  made.own_ = own_;
+  made.place_of_ = std::move(small.state_of);
+  made.first_.push_back(0);
+  for (State& state : states_) {
+    for (const Arc& arc : state.arcs) {
+      if (!arc.is_used) continue;
+      made.arcs_.push_back({arc.label, arc.target, arc.member});
+    }
+    made.first_.push_back(static_cast<std::uint32_t>(made.arcs_.size()));
+  }
+  made.states_ = std::move(numbers_);
+  return made;
+}
+
+std::optional<Component> OpenPart::take() && {
+  if (!own(automaton_.location) || !explore()) return std::nullopt;
+  return drawn();
+}
+
+}  // namespace btcheck

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+//
+// All that a part of a network can do, whatever the rest of it is.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "explore/components/component.hpp"
+
+namespace btcheck {
+
+// Explores a part whose members are components already but for one, and draws
+// its own.
+class OpenPart {
+ public:
+  OpenPart(const Components& all, AutomatonId root, Side side,
+           std::vector<PartMember> members);
+
+  // Nothing where it cannot be told, or grows beyond the limits.
+  std::optional<Component> take() &&;
+
+ private:
+  using Values = Component::Values;
+
+  // What somebody outside of the part notices of a step: when it is due, under
+  // which condition it is taken, and what it assigns, in terms of variables
+  // that are not the part's own.
+  struct Label {
+    Interval when;
+    std::uint8_t mark = 0;
+    Expression guard;
+    std::vector<Assignment> updates;
+  };
+  struct Arc {
+    std::uint32_t label = 0;
+    std::uint32_t target = 0;
+    Component::Member member;
+    bool is_used = false;  // whatever the rest does
+  };
+  struct State {
+    Values values;  // of the part's own variables
+    std::vector<Arc> arcs;
+    bool is_expanded = false;
+    std::optional<std::uint32_t> later;  // where time passes
+  };
+  // What lies between the two parts: the status of the subtree's root, and
+  // whether it has been called.
+  struct Call {
+    int status = 0;
+    bool is_called = false;
+
+    friend bool operator==(const Call&, const Call&) = default;
+  };
+
+  static constexpr std::uint32_t kQuiet = 1;  // it does nothing by itself
+  static constexpr std::uint32_t kTime = 2;   // a unit of time passes
+  static constexpr std::uint32_t kFirstLabel = 3;
+  static constexpr std::uint64_t kMostRead = 64;
+
+  const Network& network() const { return all_.network_; }
+  const Automaton& automaton_of(const PartMember& member) const;
+  VariableId location_of(const PartMember& member) const;
+  std::optional<std::size_t> own(VariableId variable) const;
+  void collect_own();
+  void collect_changes();
+  std::optional<std::uint32_t> state_number(Values values);
+  std::uint32_t label_number(Label label);
+  bool expand(std::uint32_t state);
+  bool expand(std::uint32_t state, Component::Member which);
+  bool add_arc(std::uint32_t state, Component::Member which,
+               const Interval& when,
+               const std::vector<std::pair<VariableId, int>>& read);
+  // The values after a unit of time in which the part does nothing.
+  std::optional<Values> later(Values values) const;
+  // A subtree that nobody has called.
+  bool is_at_rest(const Values& values) const;
+  // Calls found(call) for what the rest may make of one.
+  template <class Found>
+  void for_each_change(const Call& call, const Values& values,
+                       Found found) const;
+  bool explore();
+  LabelledGraph graph() const;
+  std::optional<Component> drawn();
+
+  const Components& all_;
+  const AutomatonId root_;
+  const Side side_;
+  const std::vector<PartMember> members_;
+  const Automaton& automaton_;  // of the member that is no component
+  const std::vector<AutomatonId>& timers_;  // its own
+  const VariableId status_;
+  const VariableId gate_;
+  std::vector<VariableId> own_;
+  std::vector<int> place_of_;     // by VariableId: in own_, or -1
+  std::vector<Variable> ranges_;  // of own_
+  // Of the rest, between two statuses.
+  std::vector<std::pair<int, int>> changes_;
+  std::vector<State> states_;
+  std::unordered_map<Values, std::uint32_t, Component::HashOfValues> numbers_;
+  std::vector<Label> labels_;  // from kFirstLabel on
+  std::map<std::vector<std::int32_t>, std::uint32_t> label_numbers_;
+  bool is_instant_ = true;
+};
+
+}  // namespace btcheck
