@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "explore/components/composition.hpp"
-#include "reference/random_tree.hpp"
 #include "reference/effort.hpp"
+#include "reference/random_tree.hpp"
 #include "reference/reduction_cases.hpp"
 
 namespace btcheck::reference::components_cross_check_test {
@@ -27,8 +27,8 @@ constexpr int kStepsOfWalk = 60;
 
 struct Census : ReductionCensus {
   int compositions = 0;
-  int outsides = 0;          // with all above a node as one
-  int clocks = 0;            // components that change with time
+  int outsides = 0;            // with all above a node as one
+  int clocks = 0;              // components that change with time
   std::uint64_t left_out = 0;  // automata
   std::uint64_t smaller = 0;   // states fewer than in the whole
   std::uint64_t steps = 0;     // walked in both
@@ -57,13 +57,11 @@ std::vector<bool> ended(const Network& network, const NaiveSpace& space,
   }
   std::vector<bool> all;
   for (const NaiveState& state : space.states) {
-    const bool is_over =
-        std::ranges::all_of(roots, [&](const Automaton* root) {
-          const int location = state.value(root->location) -
-                               network.variable(root->location).min;
-          return is_end(
-              root->locations[static_cast<std::size_t>(location)].role);
-        });
+    const bool is_over = std::ranges::all_of(roots, [&](const Automaton* root) {
+      const int location =
+          state.value(root->location) - network.variable(root->location).min;
+      return is_end(root->locations[static_cast<std::size_t>(location)].role);
+    });
     all.push_back(is_over || NaiveNetwork(network).is_faulty(state));
   }
   return all;
@@ -109,11 +107,11 @@ class Walk {
       const auto& seen = space_.states[here].values;
       for (std::size_t v = 0; v < state_.values.size(); ++v) {
         if (composition_.hidden()[v] || seen[v] == state_.values[v]) continue;
-        return fmt::format("step {}: {} is {}, not {}", i,
-                           qualified_name(whole_.network(),
-                                          VariableId{static_cast<std::uint32_t>(
-                                              v)}),
-                           state_.values[v], seen[v]);
+        return fmt::format(
+            "step {}: {} is {}, not {}", i,
+            qualified_name(whole_.network(),
+                           VariableId{static_cast<std::uint32_t>(v)}),
+            state_.values[v], seen[v]);
       }
     }
     return {};
@@ -164,7 +162,7 @@ class Walk {
 };
 
 // Of the network with one node as it is, or with all roots.
-std::string flaw_of(const ReductionCase& each, Components& components,
+std::string flaw_of(const ReductionCase& each, ComponentTable& components,
                     std::optional<AutomatonId> kept, Census& census) {
   const Network& whole = each.network;
   std::vector<bool> keeps(whole.automata.size(), false);
@@ -202,18 +200,20 @@ std::string flaw_of(const ReductionCase& each, Components& components,
       const auto place = composition.edge_here(number);
       if (!place) return "an edge of what is kept is gone";
       if (in_whole[number] == here[*place]) continue;
-      return fmt::format(
-          "{}.{} -> {} is{} taken in the whole", automaton.name,
-          automaton.source(automaton.edges[e]).name,
-          automaton.target(automaton.edges[e]).name,
-          in_whole[number] ? "" : " not");
+      return fmt::format("{}.{} -> {} is{} taken in the whole", automaton.name,
+                         automaton.source(automaton.edges[e]).name,
+                         automaton.target(automaton.edges[e]).name,
+                         in_whole[number] ? "" : " not");
     }
   }
   if (!kept) {
     const CallProtocol& protocol = components.protocol();
     if (can_always(each.space, ended(whole, each.space, protocol)) !=
         can_always(*space, ended(network, *space, CallProtocol(network)))) {
-      return fmt::format("can always end: {} {}", can_always(each.space, ended(whole, each.space, protocol)), can_always(*space, ended(network, *space, CallProtocol(network))));
+      return fmt::format(
+          "can always end: {} {}",
+          can_always(each.space, ended(whole, each.space, protocol)),
+          can_always(*space, ended(network, *space, CallProtocol(network))));
     }
   }
   return {};
@@ -221,8 +221,8 @@ std::string flaw_of(const ReductionCase& each, Components& components,
 
 std::string flaw_of(const ReductionCase& each, Census& census) {
   const Network& network = each.network;
-  Components components(network, std::vector<bool>(network.variables.size()),
-                        {}, {});
+  ComponentTable components(
+      network, std::vector<bool>(network.variables.size()), {}, {});
   std::string wrong = flaw_of(each, components, std::nullopt, census);
   for (std::uint32_t a = 0; a < network.automata.size() && wrong.empty(); ++a) {
     if (network.automata[a].kind != AutomatonKind::Node) continue;

@@ -11,8 +11,7 @@
 
 namespace btcheck {
 
-std::size_t Component::HashOfValues::operator()(
-    const Values& values) const {
+std::size_t Component::HashOfValues::operator()(const Values& values) const {
   std::uint64_t hash = 0x9e3779b97f4a7c15ull;
   for (const int value : values) {
     hash = (hash ^ static_cast<std::uint32_t>(value)) * 0xd6e8feb86659fd93ull;
@@ -21,8 +20,8 @@ std::size_t Component::HashOfValues::operator()(
   return hash;
 }
 
-Components::Components(const Network& network, std::vector<bool> shared,
-                       std::vector<std::uint8_t> marks, Limits limits)
+ComponentTable::ComponentTable(const Network& network, std::vector<bool> shared,
+                               std::vector<std::uint8_t> marks, Limits limits)
     : network_(network),
       marks_(std::move(marks)),
       limits_(limits),
@@ -62,23 +61,22 @@ Components::Components(const Network& network, std::vector<bool> shared,
         // A timer belongs to its node.
         const Automaton& who = network.automaton(user);
         is_alone = is_alone && who.kind != AutomatonKind::StateVariable;
-        users.push_back(
-            who.kind == AutomatonKind::Timer
-                ? index(network.node_automaton[index(who.node)])
-                : index(user));
+        users.push_back(who.kind == AutomatonKind::Timer
+                            ? index(network.node_automaton[index(who.node)])
+                            : index(user));
       }
     }
     if (!is_alone) users.clear();
     std::ranges::sort(users);
-    users.erase(std::ranges::unique(users).begin(), users.end());
+    users.erase(std::unique(users.begin(), users.end()), users.end());
   }
 }
 
-bool Components::is_only_in(AutomatonId root, Side side,
-                            VariableId variable) const {
+bool ComponentTable::is_only_in(AutomatonId root, PartSide side,
+                                VariableId variable) const {
   const auto& users = users_[index(variable)];
   return !users.empty() && std::ranges::all_of(users, [&](std::uint32_t user) {
-    return is_below(AutomatonId{user}, root) == (side == Side::Inside);
+    return is_below(AutomatonId{user}, root) == (side == PartSide::Inside);
   });
 }
 
@@ -96,7 +94,7 @@ bool only_counts(const Automaton& timer) {
 
 // Its own location is its own business, and so are those of its timers and the
 // calls of its children.
-bool Components::may_be_component(AutomatonId root) const {
+bool ComponentTable::may_be_component(AutomatonId root) const {
   const Automaton& automaton = network_.automaton(root);
   const auto is_own = [&](VariableId variable) {
     return users_[index(variable)] == std::vector<std::uint32_t>{index(root)};
@@ -117,7 +115,7 @@ bool Components::may_be_component(AutomatonId root) const {
   return inside == index(root) - first_inside_[index(root)] + 1;
 }
 
-bool Components::is_only_root(AutomatonId automaton) const {
+bool ComponentTable::is_only_root(AutomatonId automaton) const {
   for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
     const bool is_root = network_.automata[a].kind == AutomatonKind::Node &&
                          !protocol_.parent(AutomatonId{a});
@@ -126,33 +124,33 @@ bool Components::is_only_root(AutomatonId automaton) const {
   return true;
 }
 
-std::optional<std::vector<PartMember>> Components::members(AutomatonId root,
-                                                           Side side) {
+std::optional<std::vector<PartMember>> ComponentTable::members(AutomatonId root,
+                                                               PartSide side) {
   const auto parent = protocol_.parent(root);
   if (!protocol_.holds() || !parent) return std::nullopt;
-  const AutomatonId middle = side == Side::Inside ? root : *parent;
+  const AutomatonId middle = side == PartSide::Inside ? root : *parent;
   if (!may_be_component(middle)) return std::nullopt;
-  std::vector<PartMember> all = {{middle, nullptr, Side::Inside}};
-  const auto add = [&](AutomatonId id, Side of_it) {
+  std::vector<PartMember> all = {{middle, nullptr, PartSide::Inside}};
+  const auto add = [&](AutomatonId id, PartSide of_it) {
     const Component* component = of(id, of_it);
     if (component != nullptr) all.push_back({id, component, of_it});
     return component != nullptr;
   };
-  if (side == Side::Outside) {
+  if (side == PartSide::Outside) {
     const bool is_root = !protocol_.parent(middle);
-    if (!is_root && !add(middle, Side::Outside)) return std::nullopt;
+    if (!is_root && !add(middle, PartSide::Outside)) return std::nullopt;
     if (is_root && !is_only_root(middle)) return std::nullopt;
     // What is inside is let do what it may.
     if (of(root) == nullptr) return std::nullopt;
   }
   for (const AutomatonId child : children_[index(middle)]) {
-    if (child == root && side == Side::Outside) continue;
-    if (!add(child, Side::Inside)) return std::nullopt;
+    if (child == root && side == PartSide::Outside) continue;
+    if (!add(child, PartSide::Inside)) return std::nullopt;
   }
   return all;
 }
 
-const Component* Components::of(AutomatonId root, Side side) {
+const Component* ComponentTable::of(AutomatonId root, PartSide side) {
   auto& known = known_[static_cast<std::size_t>(side)][index(root)];
   if (!known) {
     // Its members come first; they are not among each other's.
@@ -164,7 +162,7 @@ const Component* Components::of(AutomatonId root, Side side) {
   return known->has_value() ? &**known : nullptr;
 }
 
-std::optional<std::uint32_t> Components::state_of(
+std::optional<std::uint32_t> ComponentTable::state_of(
     const Valuation& state, const Component& component) const {
   Component::Values own;
   for (const PartMember& member : component.members_) {
@@ -172,7 +170,7 @@ std::optional<std::uint32_t> Components::state_of(
     const auto at = place(state, member.automaton, member.side);
     if (!at) return std::nullopt;
     own.push_back(at->location);
-    if (member.side == Side::Inside) own.push_back(at->memory);
+    if (member.side == PartSide::Inside) own.push_back(at->memory);
   }
   for (std::size_t i = own.size(); i < component.own_.size(); ++i) {
     const std::size_t id = index(component.own_[i]);
@@ -185,9 +183,9 @@ std::optional<std::uint32_t> Components::state_of(
   return known->second;
 }
 
-std::optional<Component::Place> Components::place(const Valuation& state,
-                                                  AutomatonId root,
-                                                  Side side) const {
+std::optional<Component::Place> ComponentTable::place(const Valuation& state,
+                                                      AutomatonId root,
+                                                      PartSide side) const {
   const Component& component = known(root, side);
   const auto number = state_of(state, component);
   if (!number) return std::nullopt;
@@ -240,8 +238,9 @@ std::vector<const Component::Arc*> Component::way(
   return {};
 }
 
-bool Components::take(const Valuation& state, AutomatonId root, Side side,
-                      std::uint32_t edge, const Fire& fire) const {
+bool ComponentTable::take(const Valuation& state, AutomatonId root,
+                          PartSide side, std::uint32_t edge,
+                          const Fire& fire) const {
   const Component& component = known(root, side);
   const Component::Drawn& drawn = component.drawn_[edge];
   const auto start = state_of(state, component);
@@ -267,9 +266,9 @@ bool Components::take(const Valuation& state, AutomatonId root, Side side,
   return !steps.empty() && follow(state, component, steps, fire);
 }
 
-bool Components::follow(const Valuation& state, const Component& component,
-                        const std::vector<const Component::Arc*>& steps,
-                        const Fire& fire) const {
+bool ComponentTable::follow(const Valuation& state, const Component& component,
+                            const std::vector<const Component::Arc*>& steps,
+                            const Fire& fire) const {
   for (const Component::Arc* step : steps) {
     const PartMember& member = component.members_[step->member.number];
     const std::uint32_t place = step->member.edge;
@@ -290,24 +289,23 @@ bool Component::is_silent(std::uint32_t state) const {
 
 // First where no member has anything to do that the part does not see; then
 // what each does by itself.
-bool Components::settle(const Valuation& state, AutomatonId root, Side side,
-                        const Fire& fire) const {
+bool ComponentTable::settle(const Valuation& state, AutomatonId root,
+                            PartSide side, const Fire& fire) const {
   const Component& component = known(root, side);
   const auto start = state_of(state, component);
   if (!start) return false;
   if (component.is_silent(*start)) {
-    const auto steps = component.way(
-        *start, LabelledGraph::kSilent, [&](std::uint32_t end) {
+    const auto steps =
+        component.way(*start, LabelledGraph::kSilent, [&](std::uint32_t end) {
           return component.place_of_[end] == component.place_of_[*start] &&
                  !component.is_silent(end);
         });
     if (steps.empty() || !follow(state, component, steps, fire)) return false;
   }
-  return std::ranges::all_of(
-      component.members_, [&](const PartMember& member) {
-        return member.component == nullptr ||
-               settle(state, member.automaton, member.side, fire);
-      });
+  return std::ranges::all_of(component.members_, [&](const PartMember& member) {
+    return member.component == nullptr ||
+           settle(state, member.automaton, member.side, fire);
+  });
 }
 
 }  // namespace btcheck

@@ -21,13 +21,13 @@ namespace btcheck {
 class Component;
 
 // Which part of a network: the subtree of an automaton, or what is outside.
-enum class Side : std::uint8_t { Inside, Outside };
+enum class PartSide : std::uint8_t { Inside, Outside };
 
 // What a part is made of: automata of the network, and components.
 struct PartMember {
   AutomatonId automaton{};
   const Component* component = nullptr;  // that of this side of it
-  Side side = Side::Inside;
+  PartSide side = PartSide::Inside;
 };
 
 // A part of a network, looked at from the rest of it: what it does to the
@@ -70,7 +70,7 @@ class Component {
   std::size_t place_count() const { return places_.size(); }
 
  private:
-  friend class Components;
+  friend class ComponentTable;
   friend class OpenPart;
 
   struct Arc {
@@ -111,7 +111,7 @@ class Component {
 };
 
 // The components of a network, each made when it is asked for first.
-class Components {
+class ComponentTable {
  public:
   using Place = Component::Place;
   struct Limits {
@@ -122,10 +122,10 @@ class Components {
   // `shared`: by variable, whether somebody else looks at it. Edges of which
   // one with `marks` is another step than one without are by their number. The
   // network must outlive this.
-  Components(const Network& network, std::vector<bool> shared,
-             std::vector<std::uint8_t> marks, Limits limits);
-  Components(const Components&) = delete;
-  Components& operator=(const Components&) = delete;
+  ComponentTable(const Network& network, std::vector<bool> shared,
+                 std::vector<std::uint8_t> marks, Limits limits);
+  ComponentTable(const ComponentTable&) = delete;
+  ComponentTable& operator=(const ComponentTable&) = delete;
 
   const Network& network() const { return network_; }
   const CallProtocol& protocol() const { return protocol_; }
@@ -134,10 +134,10 @@ class Components {
   }
   // Null where the part cannot be one, or is too large to be. The subtree of a
   // root and what is outside of it are none.
-  const Component* of(AutomatonId root, Side side = Side::Inside);
+  const Component* of(AutomatonId root, PartSide side = PartSide::Inside);
   // Whether only this part touches the variable; the calls and answers of the
   // subtree's root are not asked for.
-  bool is_only_in(AutomatonId root, Side side, VariableId variable) const;
+  bool is_only_in(AutomatonId root, PartSide side, VariableId variable) const;
   bool is_below(AutomatonId node, AutomatonId root) const {
     return index(node) >= first_inside_[index(root)] &&
            index(node) <= index(root);
@@ -152,16 +152,16 @@ class Components {
   // Where the component that stands for a part stands when the network is in a
   // state; nothing where it passes.
   std::optional<Place> place(const Valuation& state, AutomatonId root,
-                             Side side = Side::Inside) const;
+                             PartSide side = PartSide::Inside) const;
   // Takes an edge of a component in a state of the network: calls fire(edge)
   // for the single ones that it stands for, one after the other, and each of
   // them has to change the state. False where it cannot be taken.
   using Fire = std::function<bool(std::uint32_t)>;
-  bool take(const Valuation& state, AutomatonId root, Side side,
+  bool take(const Valuation& state, AutomatonId root, PartSide side,
             std::uint32_t edge, const Fire& fire) const;
   // Likewise all that the part does by itself where its component stands: no
   // time passes before.
-  bool settle(const Valuation& state, AutomatonId root, Side side,
+  bool settle(const Valuation& state, AutomatonId root, PartSide side,
               const Fire& fire) const;
 
  private:
@@ -181,11 +181,12 @@ class Components {
   VariableId clock_of(AutomatonId automaton) const {
     return behind(2, automaton);
   }
-  const Component& known(AutomatonId root, Side side) const {
+  const Component& known(AutomatonId root, PartSide side) const {
     return known_[static_cast<std::size_t>(side)][index(root)]->value();
   }
   // Nothing where one of them cannot be had.
-  std::optional<std::vector<PartMember>> members(AutomatonId root, Side side);
+  std::optional<std::vector<PartMember>> members(AutomatonId root,
+                                                 PartSide side);
   bool may_be_component(AutomatonId root) const;
   bool is_only_root(AutomatonId automaton) const;
   std::optional<std::uint32_t> state_of(const Valuation& state,

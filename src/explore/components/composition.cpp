@@ -6,7 +6,7 @@
 
 namespace btcheck {
 
-Composition::Composition(Components& components, std::vector<bool> kept,
+Composition::Composition(ComponentTable& components, std::vector<bool> kept,
                          bool keeps_root)
     : components_(&components),
       network_(components.network()),
@@ -71,7 +71,7 @@ void Composition::leave_out(AutomatonId automaton) {
 }
 
 // What is inside a component keeps its first value.
-void Composition::hide(AutomatonId root, Side side) {
+void Composition::hide(AutomatonId root, PartSide side) {
   const Network& whole = components_->network();
   const VariableId status =
       whole.node_status[index(whole.automaton(root).node)];
@@ -107,7 +107,7 @@ void Composition::add_clock(const Component& component, VariableId location) {
 }
 
 bool Composition::place_outside_of(AutomatonId root) {
-  const Component* component = components_->of(root, Side::Outside);
+  const Component* component = components_->of(root, PartSide::Outside);
   if (component == nullptr) return false;
   const Network& whole = components_->network();
   for (std::uint32_t a = 0; a < whole.automata.size(); ++a) {
@@ -116,7 +116,7 @@ bool Composition::place_outside_of(AutomatonId root) {
       leave_out(AutomatonId{a});
     }
   }
-  hide(root, Side::Outside);
+  hide(root, PartSide::Outside);
   inner_ = root;
   outside_ = static_cast<std::uint32_t>(network_.automata.size());
   network_.automata.push_back(component->automaton);
@@ -144,7 +144,7 @@ void Composition::place_below(AutomatonId root, const std::vector<bool>& kept) {
     }
     leave_out(inside[next]);
   }
-  hide(root, Side::Inside);
+  hide(root, PartSide::Inside);
   is_component_[index(root)] = true;
   network_.automata[index(root)] = component->automaton;
   network_.variables[index(component->location_id)] = component->location;
@@ -153,39 +153,41 @@ void Composition::place_below(AutomatonId root, const std::vector<bool>& kept) {
 }
 
 bool Composition::take(const Valuation& state, std::uint32_t edge,
-                       const Components::Fire& fire) const {
+                       const ComponentTable::Fire& fire) const {
   const Automaton& owner = network_.owner_of_edge(edge);
   const auto number =
       static_cast<std::uint32_t>(&owner - network_.automata.data());
   const Network& whole = components_->network();
   if (inner_ && number == outside_) {
-    return components_->take(state, *inner_, Side::Outside,
+    return components_->take(state, *inner_, PartSide::Outside,
                              edge - owner.first_edge, fire);
   }
   if (number >= whole.automata.size()) return true;  // a clock
   const std::uint32_t place = edge - owner.first_edge;
   return is_component_[number]
-             ? components_->take(state, AutomatonId{number}, Side::Inside, place,
-                                 fire)
+             ? components_->take(state, AutomatonId{number}, PartSide::Inside,
+                                 place, fire)
              : fire(whole.automata[number].first_edge + place);
 }
 
 bool Composition::settle(const Valuation& state,
-                         const Components::Fire& fire) const {
+                         const ComponentTable::Fire& fire) const {
+  const auto& fault = components_->network().fault;
+  if (fault && state.variables[index(*fault)] != 0) return true;
   for (std::uint32_t a = 0; a < is_component_.size(); ++a) {
     const bool is_settled =
         !is_component_[a] ||
-        components_->settle(state, AutomatonId{a}, Side::Inside, fire);
+        components_->settle(state, AutomatonId{a}, PartSide::Inside, fire);
     if (!is_settled) return false;
   }
   return !inner_ ||
-         components_->settle(state, *inner_, Side::Outside, fire);
+         components_->settle(state, *inner_, PartSide::Outside, fire);
 }
 
 std::optional<std::uint32_t> Composition::edge_here(std::uint32_t whole) const {
   const Automaton& owner = components_->network().owner_of_edge(whole);
-  const auto number = static_cast<std::size_t>(
-      &owner - components_->network().automata.data());
+  const auto number =
+      static_cast<std::size_t>(&owner - components_->network().automata.data());
   if (is_inside_[number]) return std::nullopt;
   return network_.automata[number].first_edge + (whole - owner.first_edge);
 }

@@ -21,21 +21,22 @@ class Composition {
   // `kept`: by automaton, what has to stand as it is; what lies between stands
   // as well. With `keeps_root` all that lies above does, else it is a component
   // where it can be one. The components must outlive this.
-  Composition(Components& components, std::vector<bool> kept, bool keeps_root);
+  Composition(ComponentTable& components, std::vector<bool> kept,
+              bool keeps_root);
 
   const Network& network() const { return network_; }
   // How many automata the components stand for.
   std::size_t left_out() const { return left_out_; }
-  const Components& components() const { return *components_; }
+  const ComponentTable& components() const { return *components_; }
   // By VariableId of the whole: it stands in a component.
   const std::vector<bool>& hidden() const { return hidden_; }
 
   // Takes an edge of this network in a state of the whole one; see
-  // Components::take.
+  // ComponentTable::take.
   bool take(const Valuation& state, std::uint32_t edge,
-            const Components::Fire& fire) const;
-  // To be called before time passes: see Components::settle.
-  bool settle(const Valuation& state, const Components::Fire& fire) const;
+            const ComponentTable::Fire& fire) const;
+  // To be called before time passes: see ComponentTable::settle.
+  bool settle(const Valuation& state, const ComponentTable::Fire& fire) const;
   // Edges of timers of the whole network that stand in components: they are
   // taken as soon as they can be.
   const std::vector<std::uint32_t>& hidden_timers() const {
@@ -47,15 +48,15 @@ class Composition {
  private:
   std::optional<AutomatonId> lowest_above(const std::vector<bool>& kept) const;
   void leave_out(AutomatonId automaton);
-  void hide(AutomatonId root, Side side);
+  void hide(AutomatonId root, PartSide side);
   void place_below(AutomatonId root, const std::vector<bool>& kept);
   bool place_outside_of(AutomatonId root);
   void add_clock(const Component& component, VariableId location);
 
-  Components* components_;
+  ComponentTable* components_;
   Network network_;
-  std::vector<bool> is_component_;  // by AutomatonId
-  std::vector<bool> is_inside_;     // by AutomatonId: in one, or one
+  std::vector<bool> is_component_;    // by AutomatonId
+  std::vector<bool> is_inside_;       // by AutomatonId: in one, or one
   std::optional<AutomatonId> inner_;  // all that is outside of it is left out
   std::uint32_t outside_ = 0;         // that is this automaton then
   std::vector<bool> hidden_;

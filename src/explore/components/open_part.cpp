@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Variables that the rest touches as well have no values here: what an edge asks
-// of them and assigns to them is put on its label, with the values of the part's
-// own variables put in. So a state is one of the part alone, and the graph is
-// right beside whatever the rest is. Too many states would be found if it could
-// do anything: reset a node that still runs, say. So the calls and answers of
-// the subtree's root are followed beside the states, and the rest takes part in
-// them only as the edges of its automata do.
+// Variables that the rest touches as well have no values here: what an edge
+// asks of them and assigns to them is put on its label, with the values of the
+// part's own variables put in. So a state is one of the part alone, and the
+// graph is right beside whatever the rest is. Too many states would be found if
+// it could do anything: reset a node that still runs, say. So the calls and
+// answers of the subtree's root are followed beside the states, and the rest
+// takes part in them only as the edges of its automata do.
 #include "explore/components/open_part.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ void append(std::vector<std::int32_t>& key, const Expression& expression) {
 
 }  // namespace
 
-OpenPart::OpenPart(const Components& all, AutomatonId root, Side side,
+OpenPart::OpenPart(const ComponentTable& all, AutomatonId root, PartSide side,
                    std::vector<PartMember> members)
     : all_(all),
       root_(root),
@@ -38,8 +38,8 @@ OpenPart::OpenPart(const Components& all, AutomatonId root, Side side,
       members_(std::move(members)),
       automaton_(all.network_.automaton(members_[0].automaton)),
       timers_(all.timers_[index(members_[0].automaton)]),
-      status_(all.network_.node_status[index(all.network_.automaton(root)
-                                                 .node)]),
+      status_(
+          all.network_.node_status[index(all.network_.automaton(root).node)]),
       gate_(*all.network_.automaton(root).gate),
       place_of_(all.variable_count() + all.network_.automata.size(), -1) {
   collect_own();
@@ -69,7 +69,7 @@ void OpenPart::collect_own() {
   for (const PartMember& member : members_) {
     if (member.component == nullptr) continue;
     add(member.component->location_id, member.component->location);
-    if (member.side == Side::Inside) {
+    if (member.side == PartSide::Inside) {
       add(member.component->memory_id, member.component->memory);
     }
   }
@@ -100,7 +100,7 @@ void OpenPart::collect_changes() {
   std::set<std::pair<int, int>> known;
   for (std::uint32_t a = 0; a < network().automata.size(); ++a) {
     const bool is_inside = all_.is_below(AutomatonId{a}, root_);
-    if (is_inside == (side_ == Side::Inside)) continue;
+    if (is_inside == (side_ == PartSide::Inside)) continue;
     for (const Edge& edge : network().automata[a].edges) {
       for (const Assignment& update : edge.updates) {
         if (update.variable != status_) continue;
@@ -118,8 +118,8 @@ void OpenPart::collect_changes() {
 }
 
 std::optional<std::uint32_t> OpenPart::state_number(Values values) {
-  const auto [known, is_new] = numbers_.try_emplace(
-      values, static_cast<std::uint32_t>(states_.size()));
+  const auto [known, is_new] =
+      numbers_.try_emplace(values, static_cast<std::uint32_t>(states_.size()));
   if (is_new) {
     if (states_.size() >= all_.limits_.states) return std::nullopt;
     states_.push_back({std::move(values), {}, false, {}});
@@ -155,8 +155,8 @@ bool OpenPart::expand(std::uint32_t state) {
       return states_[state].values[*own(variable)];
     };
     // That of the subtree itself is open while anything moves in it.
-    const bool is_closed = moving.gate && moving.gate != gate_ &&
-                           value_of(*moving.gate) == 0;
+    const bool is_closed =
+        moving.gate && moving.gate != gate_ && value_of(*moving.gate) == 0;
     if (is_closed) continue;
     const Variable& location = ranges_[*own(moving.location)];
     const LocationId here{
@@ -220,13 +220,12 @@ bool OpenPart::add_arc(std::uint32_t state, Component::Member which,
                        const std::vector<std::pair<VariableId, int>>& read) {
   const PartMember& member = members_[which.number];
   const Edge& edge = automaton_of(member).edges[which.edge];
-  const bool is_marked =
-      member.component == nullptr && !all_.marks_.empty() &&
-      all_.marks_[automaton_.first_edge + which.edge] != 0;
+  const bool is_marked = member.component == nullptr && !all_.marks_.empty() &&
+                         all_.marks_[automaton_.first_edge + which.edge] != 0;
   Values values = states_[state].values;
   const KnownValue known =
       [&](VariableId variable) -> std::optional<std::int64_t> {
-    if (variable == gate_ && side_ == Side::Inside) return 1;
+    if (variable == gate_ && side_ == PartSide::Inside) return 1;
     if (const auto place = own(variable)) return values[*place];
     return std::nullopt;
   };
@@ -262,9 +261,8 @@ bool OpenPart::add_arc(std::uint32_t state, Component::Member which,
       label.updates.push_back({update.variable, std::move(value)});
       continue;
     }
-    const auto constant = value.is_true()
-                              ? std::optional<std::int32_t>(1)
-                              : value.only(Operation::Constant);
+    const auto constant = value.is_true() ? std::optional<std::int32_t>(1)
+                                          : value.only(Operation::Constant);
     if (!constant || !put(*place, *constant)) return false;
     for (const AutomatonId timer : timers_) {
       if (network().automaton(timer).location == update.variable) {
@@ -286,8 +284,7 @@ bool OpenPart::add_arc(std::uint32_t state, Component::Member which,
 
 bool OpenPart::is_at_rest(const Values& values) const {
   const std::size_t location = *own(automaton_.location);
-  return side_ == Side::Inside &&
-         values[location] == ranges_[location].min;
+  return side_ == PartSide::Inside && values[location] == ranges_[location].min;
 }
 
 // Components move on by their own tables; timers that have counted so far are
@@ -297,8 +294,8 @@ std::optional<Component::Values> OpenPart::later(Values values) const {
     if (member.component == nullptr) continue;
     const Component& component = *member.component;
     int& stands_at =
-        values[*own(member.side == Side::Inside ? component.memory_id
-                                                : component.location_id)];
+        values[*own(member.side == PartSide::Inside ? component.memory_id
+                                                    : component.location_id)];
     stands_at = component.later[static_cast<std::size_t>(stands_at)];
   }
   const auto count = [&](AutomatonId id, bool is_timer) {
@@ -335,18 +332,18 @@ template <class Found>
 void OpenPart::for_each_change(const Call& call, const Values& values,
                                Found found) const {
   const bool may_change =
-      side_ == Side::Inside ? is_at_rest(values) : call.is_called;
+      side_ == PartSide::Inside ? is_at_rest(values) : call.is_called;
   if (!may_change) return;
   for (const auto& [from, to] : changes_) {
     if (from == call.status) found(Call{to, call.is_called});
   }
-  if (side_ == Side::Outside) found(Call{call.status, false});
+  if (side_ == PartSide::Outside) found(Call{call.status, false});
 }
 
 // Beside each state the calls are followed that lead to it.
 bool OpenPart::explore() {
   const Variable& range = network().variable(status_);
-  const bool is_inside = side_ == Side::Inside;
+  const bool is_inside = side_ == PartSide::Inside;
   const std::size_t calls = 2 * static_cast<std::size_t>(range.domain_size());
   std::vector<bool> seen;
   std::deque<std::pair<std::uint32_t, Call>> open;
@@ -366,7 +363,7 @@ bool OpenPart::explore() {
   found(*first, {range.initial, false});
   const bool is_timed = network().ticks != TickSemantics::None;
   const bool waits_instantly =
-      is_inside || all_.known(root_, Side::Inside).is_instant;
+      is_inside || all_.known(root_, PartSide::Inside).is_instant;
   while (!open.empty()) {
     const auto [state, call] = open.front();
     open.pop_front();
@@ -414,9 +411,9 @@ bool OpenPart::explore() {
     }
     if (!is_timed) continue;
     // In a subtree that is called, time may pass where it changes nothing.
-    const bool waits = is_inside ? !rests && !is_urgent
-                                 : !is_urgent && !(call.is_called &&
-                                                   waits_instantly);
+    const bool waits = is_inside
+                           ? !rests && !is_urgent
+                           : !is_urgent && !(call.is_called && waits_instantly);
     if (!rests && !waits) continue;
     auto values = later(states_[state].values);
     if (!values) return false;
@@ -486,9 +483,10 @@ class Ends {
   // What time leads to is one state: nothing is decided with a step of time.
   bool passes(std::uint32_t state) const {
     const auto arcs = graph_.arcs(state);
-    return !is_kept_[state] && !arcs.empty() && std::ranges::all_of(arcs, [&](const auto& arc) {
-      return arc.label == LabelledGraph::kSilent && arc.target != state;
-    });
+    return !is_kept_[state] && !arcs.empty() &&
+           std::ranges::all_of(arcs, [&](const auto& arc) {
+             return arc.label == LabelledGraph::kSilent && arc.target != state;
+           });
   }
   const std::vector<std::uint32_t>& of(std::uint32_t state) {
     std::vector<std::uint32_t>& ends = ends_[state];
@@ -501,7 +499,7 @@ class Ends {
       found.insert(found.end(), behind.begin(), behind.end());
     }
     std::ranges::sort(found);
-    found.erase(std::ranges::unique(found).begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     return ends_[state] = std::move(found);
   }
 
@@ -530,7 +528,7 @@ Minimal minimal(const LabelledGraph& graph, std::uint32_t time) {
       }
     }
     std::ranges::sort(arcs);
-    arcs.erase(std::ranges::unique(arcs).begin(), arcs.end());
+    arcs.erase(std::unique(arcs.begin(), arcs.end()), arcs.end());
     without.add_state(arcs);
   }
   Minimal made = quotient_of(without);
@@ -546,7 +544,7 @@ Minimal minimal(const LabelledGraph& graph, std::uint32_t time) {
 }  // namespace
 
 std::optional<Component> OpenPart::drawn() {
-  const bool is_inside = side_ == Side::Inside;
+  const bool is_inside = side_ == PartSide::Inside;
   Component made;
   made.is_instant = is_instant_;
   made.memory_id = all_.memory_of(root_);
@@ -578,11 +576,15 @@ std::optional<Component> OpenPart::drawn() {
         {"place_" + std::to_string(p), LocationRole::Inner, {}});
   }
   const Component::Place begin = made.places_[small.state_of[0]];
-  made.location = {VariableRole::Location, "location", 0,
+  made.location = {VariableRole::Location,
+                   "location",
+                   0,
                    static_cast<int>(automaton.locations.size()) - 1,
-                   begin.location, {}, {}};
+                   begin.location,
+                   {},
+                   {}};
   made.memory = {VariableRole::Local, "memory", 0, std::max(0, memories - 1),
-                 begin.memory, {}, {}};
+                 begin.memory,        {},       {}};
   const auto in_time = [&](const Component::Place& place) {
     return is_inside ? place.memory : place.location;
   };

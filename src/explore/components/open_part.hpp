@@ -16,7 +16,7 @@ namespace btcheck {
 // its own.
 class OpenPart {
  public:
-  OpenPart(const Components& all, AutomatonId root, Side side,
+  OpenPart(const ComponentTable& all, AutomatonId root, PartSide side,
            std::vector<PartMember> members);
 
   // Nothing where it cannot be told, or grows beyond the limits.
@@ -85,9 +85,9 @@ class OpenPart {
   LabelledGraph graph() const;
   std::optional<Component> drawn();
 
-  const Components& all_;
+  const ComponentTable& all_;
   const AutomatonId root_;
-  const Side side_;
+  const PartSide side_;
   const std::vector<PartMember> members_;
   const Automaton& automaton_;  // of the member that is no component
   const std::vector<AutomatonId>& timers_;  // its own

@@ -37,7 +37,7 @@ std::vector<std::uint32_t> silent_components(const LabelledGraph& graph) {
 
 void make_a_set(std::vector<Arc>& arcs) {
   std::ranges::sort(arcs);
-  arcs.erase(std::ranges::unique(arcs).begin(), arcs.end());
+  arcs.erase(std::unique(arcs.begin(), arcs.end()), arcs.end());
 }
 
 // The graph with one state for each silent cycle.
