@@ -2,19 +2,23 @@
 //
 // Runs suites of `btcheck tests --to jsonl` in BehaviorTree.CPP, 4 or 3.8: what
 // the generated files of GoogleTest do, compiled once for all of them.
-//   run_suites [-v] SUITE.tests.jsonl...
+//   run_suites [-v] [-m TREE.xml] SUITE.tests.jsonl...
 // Writes a line for each: of how many bytes it is, how many tests pass, and how
 // many of the answers and halts that the suite reaches the engine has reached.
 // With -v, what each test that fails expected and found. A tree that the engine
-// does not load, for nodes that nobody has registered, is not run. Exit code 1
-// where a test fails.
+// does not load, for nodes that nobody has registered, is not run. With -m, the
+// tests are run in another tree, whose nodes have the same names, in whatever
+// places (script/compare-mutants). Exit code 1 where a test fails.
 #if defined(SUITE_RELEASE_3)
 #define BTCHECK_SUITE_RELEASE 3
 #endif
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -84,8 +88,18 @@ std::string expected(const json& tick) {
   return text;
 }
 
+// In what order the words of a tick stand hangs on the places of the nodes.
+std::vector<std::string> sorted_words(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words{std::istream_iterator<std::string>(stream),
+                                 {}};
+  std::sort(words.begin(), words.end());
+  return words;
+}
+
 // "" where all is as it should be.
-std::string fault_of(const Tree& tree, const json& initial, const json& test) {
+std::string fault_of(const Tree& tree, const json& initial, const json& test,
+                     bool is_other_tree) {
   ScriptedRun run(tree);
   set_all(run, initial);
   for (const json& leaf : test["leaves"]) {
@@ -108,22 +122,65 @@ std::string fault_of(const Tree& tree, const json& initial, const json& test) {
     const std::string told = run.tick();
     const std::string wanted = expected(tick);
     if (told == wanted) continue;
+    if (is_other_tree && sorted_words(told) == sorted_words(wanted)) continue;
     return "tick " + std::to_string(number) + "\n    expected " + wanted +
            "\n    found    " + told + "  " + run.why();
   }
   return "";
 }
 
-Outcome outcome_of(const std::string& file, bool is_verbose) {
+void add_nodes(const BT::TreeNode& node, const Tree& right, Tree& other) {
+  const auto same =
+      std::find_if(right.nodes.begin(), right.nodes.end(),
+                   [&](const auto& each) { return each.key == node.name(); });
+  if (same == right.nodes.end()) {
+    throw std::runtime_error("the suite has no node " + node.name());
+  }
+  other.nodes.push_back({same->key, node.registrationName(), same->keeps});
+  if (auto* control = dynamic_cast<const BT::ControlNode*>(&node)) {
+    for (const auto* child : control->children()) {
+      add_nodes(*child, right, other);
+    }
+  } else if (auto* decorator = dynamic_cast<const BT::DecoratorNode*>(&node)) {
+    if (const auto* child = decorator->child()) add_nodes(*child, right, other);
+  }
+}
+
+// The tree of a file, with the leaves and the keys of a suite.
+Tree other_tree(const Tree& right, const std::string& file) {
+  std::ifstream in(file);
+  std::stringstream text;
+  text << in.rdbuf();
+  Tree other = right;
+  other.xml = text.str();
+  other.nodes.clear();
+  BT::BehaviorTreeFactory factory;
+  register_nav2_nodes(factory);
+  for (const auto& leaf : right.leaves) {
+    if (leaf.is_condition) {
+      btcheck::suite::register_leaf<btcheck::suite::FakeCondition>(factory,
+                                                                   leaf);
+    } else {
+      btcheck::suite::register_leaf<btcheck::suite::FakeAction>(factory, leaf);
+    }
+  }
+  BT::Tree tree = factory.createTreeFromText(other.xml);
+  add_nodes(*tree.rootNode(), right, other);
+  return other;
+}
+
+Outcome outcome_of(const std::string& file, bool is_verbose,
+                   const std::string& mutant) {
   std::ifstream in(file);
   std::string text;
   if (!std::getline(in, text)) throw std::runtime_error("cannot read " + file);
   const json suite = json::parse(text);
-  const Tree tree = tree_of(suite);
+  Tree tree = tree_of(suite);
   Outcome outcome;
   outcome.proven = suite["proven"];
   btcheck::suite::reached().clear();
   try {
+    if (!mutant.empty()) tree = other_tree(tree, mutant);
     const ScriptedRun trial(tree);
   } catch (const std::exception& refusal) {
     outcome.refusal = refusal.what();
@@ -134,7 +191,7 @@ Outcome outcome_of(const std::string& file, bool is_verbose) {
     ++outcome.tests;
     std::string fault;
     try {
-      fault = fault_of(tree, suite["initial"], test);
+      fault = fault_of(tree, suite["initial"], test, !mutant.empty());
     } catch (const std::exception& refusal) {
       fault = std::string("the engine refuses: ") + refusal.what();
     }
@@ -166,13 +223,18 @@ int main(int count, char** words) {
   Outcome all;
   int suites = 0;
   int refused = 0;
+  std::string mutant;
   for (int i = 1; i < count; ++i) {
     const std::string word = words[i];
+    if (word == "-m" && i + 1 < count) {
+      mutant = words[++i];
+      continue;
+    }
     if (word == "-v") {
       is_verbose = true;
       continue;
     }
-    const Outcome one = outcome_of(word, is_verbose);
+    const Outcome one = outcome_of(word, is_verbose, mutant);
     if (!one.refusal.empty()) {
       std::cout << word << ": not run: " << one.refusal << '\n';
       ++refused;
