@@ -330,7 +330,8 @@ std::vector<std::string> lines_of(const CommandRow& row,
       return {"conform run.btlog trees/" + language.tree,
               "conform run.btlog --coverage trees/" + language.tree};
     case Command::Explain:
-      return {"explain run.btlog --tree trees/" + language.tree};
+      return {"explain run.btlog --tree trees/" + language.tree,
+              "explain waits.btlog --tree waits.btf"};
     default:
       return {line};
   }
@@ -356,12 +357,19 @@ std::string seen(const Outcome& outcome, const fs::path& folder) {
   return text;
 }
 
-// A run of the tree, and its log.
+// A run of the tree, and its log; and of one to which it matters where time
+// passes.
 void record(const fs::path& folder, const Language& language) {
-  run_in(folder, kProgram + " simulate trees/" + language.tree +
-                     " --seed 3 --ticks 8 -o run.itf.json >/dev/null 2>&1");
-  run_in(folder,
-         kProgram + " trace run.itf.json --to btlog -o run.btlog 2>/dev/null");
+  write(folder / "waits.btf",
+        "(BehaviorTree :name t (Sequence (Wait :duration 3) (Action :ID a)))");
+  for (const auto& [name, tree] :
+       {std::pair<std::string, std::string>("run", "trees/" + language.tree),
+        {"waits", "waits.btf"}}) {
+    run_in(folder, kProgram + " simulate " + tree + " --seed 3 --ticks 8 -o " +
+                       name + ".itf.json >/dev/null 2>&1");
+    run_in(folder, kProgram + " trace " + name + ".itf.json --to btlog -o " +
+                       name + ".btlog 2>/dev/null");
+  }
 }
 
 std::string told(const std::string& line, const std::string& option,
