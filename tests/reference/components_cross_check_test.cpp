@@ -221,8 +221,8 @@ std::string flaw_of(const ReductionCase& each, ComponentTable& components,
 
 std::string flaw_of(const ReductionCase& each, Census& census) {
   const Network& network = each.network;
-  ComponentTable components(
-      network, std::vector<bool>(network.variables.size()), {}, {});
+  ComponentTable components(network,
+                            std::vector<bool>(network.variables.size()), {});
   std::string wrong = flaw_of(each, components, std::nullopt, census);
   for (std::uint32_t a = 0; a < network.automata.size() && wrong.empty(); ++a) {
     if (network.automata[a].kind != AutomatonKind::Node) continue;

@@ -92,7 +92,7 @@ TEST_CASE("small graphs have the blocks of the definition") {
   CHECK_COVERED(of_several > graphs / 4);
 }
 
-TEST_CASE("larger graphs have blocks that satisfy the definition") {
+TEST_CASE("larger graphs have the blocks that signatures give") {
   std::mt19937 random(shifted_seed(43));
   for (int i = 0; i < by_effort(20, 200); ++i) {
     CAPTURE(i);

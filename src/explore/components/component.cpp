@@ -2,7 +2,6 @@
 #include "explore/components/component.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "explore/components/open_part.hpp"
@@ -11,19 +10,9 @@
 
 namespace btcheck {
 
-std::size_t Component::HashOfValues::operator()(const Values& values) const {
-  std::uint64_t hash = 0x9e3779b97f4a7c15ull;
-  for (const int value : values) {
-    hash = (hash ^ static_cast<std::uint32_t>(value)) * 0xd6e8feb86659fd93ull;
-    hash ^= hash >> 32;
-  }
-  return hash;
-}
-
-ComponentTable::ComponentTable(const Network& network, std::vector<bool> shared,
-                               std::vector<std::uint8_t> marks, Limits limits)
+ComponentTable::ComponentTable(const Network& network,
+                               const std::vector<bool>& shared, Limits limits)
     : network_(network),
-      marks_(std::move(marks)),
       limits_(limits),
       protocol_(network),
       children_(network.automata.size()),
@@ -38,6 +27,8 @@ ComponentTable::ComponentTable(const Network& network, std::vector<bool> shared,
     }
     if (const auto parent = protocol_.parent(AutomatonId{a})) {
       children_[index(*parent)].push_back(AutomatonId{a});
+    } else if (automaton.kind == AutomatonKind::Node) {
+      roots_.push_back(AutomatonId{a});
     }
   }
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
@@ -115,15 +106,6 @@ bool ComponentTable::may_be_component(AutomatonId root) const {
   return inside == index(root) - first_inside_[index(root)] + 1;
 }
 
-bool ComponentTable::is_only_root(AutomatonId automaton) const {
-  for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
-    const bool is_root = network_.automata[a].kind == AutomatonKind::Node &&
-                         !protocol_.parent(AutomatonId{a});
-    if (is_root && AutomatonId{a} != automaton) return false;
-  }
-  return true;
-}
-
 std::optional<std::vector<PartMember>> ComponentTable::members(AutomatonId root,
                                                                PartSide side) {
   const auto parent = protocol_.parent(root);
@@ -139,7 +121,7 @@ std::optional<std::vector<PartMember>> ComponentTable::members(AutomatonId root,
   if (side == PartSide::Outside) {
     const bool is_root = !protocol_.parent(middle);
     if (!is_root && !add(middle, PartSide::Outside)) return std::nullopt;
-    if (is_root && !is_only_root(middle)) return std::nullopt;
+    if (is_root && roots_.size() > 1) return std::nullopt;
     // What is inside is let do what it may.
     if (of(root) == nullptr) return std::nullopt;
   }
@@ -194,28 +176,23 @@ std::optional<Component::Place> ComponentTable::place(const Valuation& state,
   return component.places_[place];
 }
 
-namespace {
-
-struct WayEntry {
-  std::uint32_t state = 0;
-  bool has_stepped = false;  // with the label that is asked for
-  std::size_t from = 0;
-};
-
-}  // namespace
-
 // A shortest way from a state to one that stands there, silent but for one step
 // with the label; where that is silent as well, of one step at least.
 std::vector<const Component::Arc*> Component::way(
     std::uint32_t from, std::uint32_t label,
     const std::function<bool(std::uint32_t)>& ends) const {
+  struct Entry {
+    std::uint32_t state = 0;
+    bool has_stepped = false;  // with the label
+    std::size_t from = 0;
+    const Arc* by = nullptr;
+  };
   constexpr std::uint32_t kSilent = LabelledGraph::kSilent;
-  std::vector<WayEntry> queue = {{from, false, 0}};
-  std::vector<const Arc*> by = {nullptr};
+  std::vector<Entry> queue = {{from}};
   std::vector<bool> seen(2 * size(), false);
   for (std::size_t next = 0; next < queue.size(); ++next) {
     ask_budget();
-    const WayEntry at = queue[next];
+    const Entry at = queue[next];
     for (const Arc& arc : arcs(at.state)) {
       const bool is_step = arc.label == label && !at.has_stepped;
       if (!is_step && arc.label != kSilent) continue;
@@ -223,13 +200,12 @@ std::vector<const Component::Arc*> Component::way(
       const std::size_t place = 2 * std::size_t{arc.target} + has_stepped;
       if (seen[place]) continue;
       seen[place] = true;
-      queue.push_back({arc.target, has_stepped, next});
-      by.push_back(&arc);
+      queue.push_back({arc.target, has_stepped, next, &arc});
       if (!has_stepped || !ends(arc.target)) continue;
       std::vector<const Arc*> steps;
-      for (std::size_t i = queue.size() - 1; by[i] != nullptr;
+      for (std::size_t i = queue.size() - 1; queue[i].by != nullptr;
            i = queue[i].from) {
-        steps.push_back(by[i]);
+        steps.push_back(queue[i].by);
       }
       std::ranges::reverse(steps);
       return steps;

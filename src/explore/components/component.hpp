@@ -3,6 +3,7 @@
 // A subtree as one small automaton.
 #pragma once
 
+#include <boost/container_hash/hash.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -65,6 +66,9 @@ class Component {
     int memory = 0;
   };
 
+  // Instead of a place: it goes on silently from there, and is never seen.
+  static constexpr std::uint32_t kPassing = 0xffffffff;
+
   // States of the part, and what is left of them.
   std::size_t size() const { return place_of_.size(); }
   std::size_t place_count() const { return places_.size(); }
@@ -85,9 +89,8 @@ class Component {
   };
   // Of one state: the values of own_.
   using Values = std::vector<int>;
-  struct HashOfValues {
-    std::size_t operator()(const Values& values) const;
-  };
+  using Numbers =
+      std::unordered_map<Values, std::uint32_t, boost::hash<Values>>;
 
   std::vector<const Arc*> way(
       std::uint32_t from, std::uint32_t label,
@@ -99,12 +102,11 @@ class Component {
 
   std::vector<PartMember> members_;
   std::vector<VariableId> own_;  // the variables of its states
-  std::unordered_map<Values, std::uint32_t, HashOfValues> states_;
+  Numbers states_;
   std::vector<std::uint32_t> first_;
   std::vector<Arc> arcs_;
-  // By state: where the automaton stands then, as a number of places_; kPassing
-  // where it goes on silently and so is never seen.
-  static constexpr std::uint32_t kPassing = 0xffffffff;
+  // By state: where the automaton stands then, as a number of places_, or
+  // kPassing.
   std::vector<std::uint32_t> place_of_;
   std::vector<Place> places_;
   std::vector<Drawn> drawn_;  // by edge of the automaton
@@ -119,16 +121,16 @@ class ComponentTable {
     std::size_t edges = 5'000;  // of one automaton
   };
 
-  // `shared`: by variable, whether somebody else looks at it. Edges of which
-  // one with `marks` is another step than one without are by their number. The
-  // network must outlive this.
-  ComponentTable(const Network& network, std::vector<bool> shared,
-                 std::vector<std::uint8_t> marks, Limits limits);
+  // `shared`: by variable, whether somebody else looks at it. The network must
+  // outlive this.
+  ComponentTable(const Network& network, const std::vector<bool>& shared,
+                 Limits limits);
   ComponentTable(const ComponentTable&) = delete;
   ComponentTable& operator=(const ComponentTable&) = delete;
 
   const Network& network() const { return network_; }
   const CallProtocol& protocol() const { return protocol_; }
+  const std::vector<AutomatonId>& roots() const { return roots_; }
   const std::vector<AutomatonId>& children(AutomatonId id) const {
     return children_[index(id)];
   }
@@ -188,14 +190,13 @@ class ComponentTable {
   std::optional<std::vector<PartMember>> members(AutomatonId root,
                                                  PartSide side);
   bool may_be_component(AutomatonId root) const;
-  bool is_only_root(AutomatonId automaton) const;
   std::optional<std::uint32_t> state_of(const Valuation& state,
                                         const Component& component) const;
 
   const Network& network_;
-  const std::vector<std::uint8_t> marks_;
   const Limits limits_;
   const CallProtocol protocol_;
+  std::vector<AutomatonId> roots_;
   std::vector<std::vector<AutomatonId>> children_;  // by AutomatonId
   std::vector<std::uint32_t> first_inside_;  // by AutomatonId: of its subtree
   std::vector<std::vector<AutomatonId>> timers_;  // by AutomatonId: its own

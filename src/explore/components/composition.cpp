@@ -27,11 +27,7 @@ Composition::Composition(ComponentTable& components, std::vector<bool> kept,
   const Variable unused{VariableRole::Local, "memory", 0, 0, 0, {}, {}};
   network_.variables.resize(components.variable_count(), unused);
   if (keeps_root || !lowest || !place_outside_of(*lowest)) {
-    for (std::uint32_t a = 0; a < count; ++a) {
-      const bool is_root = whole.automata[a].kind == AutomatonKind::Node &&
-                           !protocol.parent(AutomatonId{a});
-      if (is_root) place_below(AutomatonId{a}, kept);
-    }
+    for (const AutomatonId root : components.roots()) place_below(root, kept);
   } else {
     place_below(*lowest, kept);
   }

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <set>
 
 #include "explore/components/residual.hpp"
 #include "explore/state/accesses.hpp"
@@ -48,10 +47,6 @@ OpenPart::OpenPart(const ComponentTable& all, AutomatonId root, PartSide side,
 
 const Automaton& OpenPart::automaton_of(const PartMember& member) const {
   return member.component == nullptr ? automaton_ : member.component->automaton;
-}
-
-VariableId OpenPart::location_of(const PartMember& member) const {
-  return automaton_of(member).location;
 }
 
 std::optional<std::size_t> OpenPart::own(VariableId variable) const {
@@ -97,7 +92,6 @@ void OpenPart::collect_own() {
 
 void OpenPart::collect_changes() {
   const Variable& range = network().variable(status_);
-  std::set<std::pair<int, int>> known;
   for (std::uint32_t a = 0; a < network().automata.size(); ++a) {
     const bool is_inside = all_.is_below(AutomatonId{a}, root_);
     if (is_inside == (side_ == PartSide::Inside)) continue;
@@ -109,7 +103,7 @@ void OpenPart::collect_changes() {
           if (value && *value != to) continue;
           for (int from = range.min; from <= range.max; ++from) {
             if (excludes(edge.guard, status_, from)) continue;
-            if (known.emplace(from, to).second) changes_.emplace_back(from, to);
+            changes_.emplace(from, to);
           }
         }
       }
@@ -131,11 +125,11 @@ std::optional<std::uint32_t> OpenPart::state_number(Values values) {
 std::uint32_t OpenPart::label_number(Label label) {
   const bool is_untimed = network().ticks == TickSemantics::None;
   const bool is_silent = is_always(label.guard) && label.updates.empty() &&
-                         label.mark == 0 &&
+                         !label.is_open_round &&
                          (is_untimed || label.when.is_urgent());
   if (is_silent) return LabelledGraph::kSilent;
   std::vector<std::int32_t> key = {label.when.lower, label.when.upper,
-                                   label.mark};
+                                   label.is_open_round};
   append(key, label.guard);
   for (const Assignment& update : label.updates) {
     key.push_back(static_cast<std::int32_t>(index(update.variable)));
@@ -220,8 +214,6 @@ bool OpenPart::add_arc(std::uint32_t state, Component::Member which,
                        const std::vector<std::pair<VariableId, int>>& read) {
   const PartMember& member = members_[which.number];
   const Edge& edge = automaton_of(member).edges[which.edge];
-  const bool is_marked = member.component == nullptr && !all_.marks_.empty() &&
-                         all_.marks_[automaton_.first_edge + which.edge] != 0;
   Values values = states_[state].values;
   const KnownValue known =
       [&](VariableId variable) -> std::optional<std::int64_t> {
@@ -231,7 +223,7 @@ bool OpenPart::add_arc(std::uint32_t state, Component::Member which,
   };
   Label label;
   label.when = when;
-  label.mark = is_marked || edge.is_open_round ? 1 : 0;
+  label.is_open_round = edge.is_open_round;
   label.guard = residual(edge.guard, known);
   if (is_never(label.guard)) return true;
   if (is_always(label.guard)) label.guard = {};
@@ -270,7 +262,7 @@ bool OpenPart::add_arc(std::uint32_t state, Component::Member which,
       }
     }
   }
-  const std::size_t place = *own(location_of(member));
+  const std::size_t place = *own(automaton_of(member).location);
   if (!put(place, ranges_[place].min + static_cast<int>(index(edge.target)))) {
     return false;
   }
@@ -457,7 +449,7 @@ struct Minimal {
   std::vector<std::uint32_t> state_of;  // by state of the graph before
 };
 
-constexpr std::uint32_t kPassing = 0xffffffff;
+constexpr std::uint32_t kPassing = Component::kPassing;
 
 Minimal quotient_of(const LabelledGraph& graph) {
   Minimal made;
@@ -609,7 +601,7 @@ std::optional<Component> OpenPart::drawn() {
         edge.when = label.when;
         edge.guard = label.guard;
         edge.updates = label.updates;
-        edge.is_open_round = label.mark != 0;
+        edge.is_open_round = label.is_open_round;
       }
       if (is_rest[p]) {
         Expression here = differs(gate_, 0);
@@ -636,7 +628,7 @@ std::optional<Component> OpenPart::drawn() {
   made.own_ = own_;
   made.place_of_ = std::move(small.state_of);
   made.first_.push_back(0);
-  for (State& state : states_) {
+  for (const State& state : states_) {
     for (const Arc& arc : state.arcs) {
       if (!arc.is_used) continue;
       made.arcs_.push_back({arc.label, arc.target, arc.member});

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,7 @@ class OpenPart {
   // that are not the part's own.
   struct Label {
     Interval when;
-    std::uint8_t mark = 0;
+    bool is_open_round = false;
     Expression guard;
     std::vector<Assignment> updates;
   };
@@ -51,8 +52,6 @@ class OpenPart {
   struct Call {
     int status = 0;
     bool is_called = false;
-
-    friend bool operator==(const Call&, const Call&) = default;
   };
 
   static constexpr std::uint32_t kQuiet = 1;  // it does nothing by itself
@@ -62,7 +61,6 @@ class OpenPart {
 
   const Network& network() const { return all_.network_; }
   const Automaton& automaton_of(const PartMember& member) const;
-  VariableId location_of(const PartMember& member) const;
   std::optional<std::size_t> own(VariableId variable) const;
   void collect_own();
   void collect_changes();
@@ -97,9 +95,9 @@ class OpenPart {
   std::vector<int> place_of_;     // by VariableId: in own_, or -1
   std::vector<Variable> ranges_;  // of own_
   // Of the rest, between two statuses.
-  std::vector<std::pair<int, int>> changes_;
+  std::set<std::pair<int, int>> changes_;
   std::vector<State> states_;
-  std::unordered_map<Values, std::uint32_t, Component::HashOfValues> numbers_;
+  Component::Numbers numbers_;
   std::vector<Label> labels_;  // from kFirstLabel on
   std::map<std::vector<std::int32_t>, std::uint32_t> label_numbers_;
   bool is_instant_ = true;
