@@ -14,6 +14,7 @@
 #include "check/findings/findings.hpp"
 #include "check/findings/judgement.hpp"
 #include "check/questions/earlier.hpp"
+#include "check/questions/in_parts.hpp"
 #include "check/questions/lint.hpp"
 #include "check/rules_network.hpp"
 #include "check/search/engine.hpp"
@@ -93,10 +94,11 @@ DefaultReport default_answers(const BehaviorTree& tree,
                               const CompiledNetwork& system,
                               const CheckOptions& options) {
   const std::uint64_t most = options.limits.max_states;
+  const auto search = [](auto&&... how) { return check_defaults(how...); };
   std::optional<DefaultReport> known;
-  const auto attempt = [&](auto... how) {
+  const auto attempt = [&](auto made, auto... how) {
     try {
-      DefaultReport report = check_defaults(tree, system, how...);
+      DefaultReport report = made(tree, system, how...);
       if (known) add_known(tree, std::move(*known), report);
       known = std::move(report);
     } catch (const BudgetSpent& spent) {
@@ -110,12 +112,16 @@ DefaultReport default_answers(const BehaviorTree& tree,
     }
     Limits few = options.limits;
     few.max_states = std::min(most, most_states);
-    attempt(reduction, few);
+    attempt(search, reduction, few, Sampling::None, 1U);
     if (known->stopped != StopReason::MaxStates || most <= most_states) {
       return std::move(*known);
     }
   }
-  attempt(options.choices.reduction, options.limits, Sampling::WhenLong,
+  if (known && options.choices.reduction == Reduction::Full && !options.start) {
+    attempt(check_defaults_in_parts, options.limits);
+    if (known->stopped != StopReason::MaxStates) return std::move(*known);
+  }
+  attempt(search, options.choices.reduction, options.limits, Sampling::WhenLong,
           options.choices.threads);
   return std::move(*known);
 }

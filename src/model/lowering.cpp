@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "model/btcpp/action_clients.hpp"
 #include "model/mapping/btcpp/builder.hpp"
 #include "model/mapping/paper/drawings.hpp"
 #include "model/mapping/py_trees/drawings.hpp"
@@ -176,14 +177,30 @@ const mapping::Drawings& drawings_of(Profile profile) {
   return is_engine(profile) ? kBtcpp : kBtf;
 }
 
+// Rounds of an unknown number come to an end, and a goal is not reached in no
+// time: the first say so where they are drawn.
+void mark_goals(const BehaviorTree& tree, Automaton& automaton) {
+  if (!btcpp::is_action_client(tree.profile, tree.node(automaton.node).id)) {
+    return;
+  }
+  for (Edge& edge : automaton.edges) {
+    if (automaton.target(edge).role == LocationRole::Success) {
+      edge.is_like_time = true;
+    }
+  }
+}
+
 // Edge numbers, whose each variable is, and the domains of locations.
-void finish(Network& network) {
+void finish(const BehaviorTree& tree, Network& network) {
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     Automaton& automaton = network.automata[a];
     const auto own = [&](VariableId variable) {
       network.variables[index(variable)].owner = AutomatonId{a};
     };
-    if (automaton.kind == AutomatonKind::Node) drop_unused_locations(automaton);
+    if (automaton.kind == AutomatonKind::Node) {
+      drop_unused_locations(automaton);
+      mark_goals(tree, automaton);
+    }
     own(automaton.location);
     if (automaton.kind == AutomatonKind::StateVariable) continue;
     if (automaton.gate) own(*automaton.gate);
@@ -217,7 +234,7 @@ Network lower(const BehaviorTree& tree, TickSemantics ticks,
     mapping::NodeBuilder builder(context, node);
     drawings.of(tree.node(node).type)(builder);
   }
-  finish(network);
+  finish(tree, network);
   return network;
 }
 

@@ -175,7 +175,7 @@ class NetworkTeller {
     add("{} -> {} if{} then{} in {} {} `{}` {}{}{}", index(edge.source),
         index(edge.target), text_of(edge.guard), text, edge.when.lower,
         edge.when.upper, text_of(edge.label), edge.asks_world, edge.tells_why,
-        edge.is_open_round);
+        edge.is_like_time);
   }
 
   const BehaviorTree& tree_;

@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "check/questions/default_questions.hpp"
 
-#include "model/btcpp/action_clients.hpp"
+#include <algorithm>
+#include <utility>
 
 namespace btcheck {
-namespace {
 
-// Rounds of an unknown number come to an end, and a goal is not reached in no
-// time: neither is part of a loop that takes none.
-bool is_like_time(const BehaviorTree& tree, const Automaton& automaton,
-                  const Edge& edge) {
-  if (edge.is_open_round) return true;
-  return automaton.kind == AutomatonKind::Node &&
-         automaton.target(edge).role == LocationRole::Success &&
-         btcpp::is_action_client(tree.profile, tree.node(automaton.node).id);
-}
-
-}  // namespace
-
-Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
+Observed seen_by_default(const BehaviorTree& tree, const Network& network,
+                         const Asked& asked) {
   Observed seen(network);
+  if (!asked.of_tree) return seen;
   for (const NodeId root : tree.roots) {
     const Automaton& automaton = network.automaton(root);
     for (std::size_t i = 0; i < automaton.locations.size(); ++i) {
@@ -29,7 +19,7 @@ Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
   }
   for (const Automaton& automaton : network.automata) {
     for (const Edge& edge : automaton.edges) {
-      if (!is_like_time(tree, automaton, edge)) continue;
+      if (!edge.is_like_time) continue;
       seen.add(equals(automaton.location, static_cast<int>(edge.source)));
     }
   }
@@ -37,13 +27,16 @@ Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
 }
 
 Observed kept_for_default(const BehaviorTree& tree, const Network& network,
-                          const std::vector<Sighting>& sightings) {
-  Observed kept = seen_by_default(tree, network);
+                          const std::vector<Sighting>& sightings,
+                          const Asked& asked) {
+  Observed kept = seen_by_default(tree, network, asked);
   const auto keep = [&](NodeId node) {
     kept.add(equals(network.node_status[index(node)], NodeStatus::Running));
   };
   for (const NodeId node : may_be_left_running(tree, network)) keep(node);
-  for (const Sighting& sighting : sightings) {
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    if (!asked.has_sighting(i)) continue;
+    const Sighting& sighting = sightings[i];
     for (const auto& [node, status] : sighting.with) {
       kept.add(equals(network.node_status[index(node)], status));
     }
@@ -57,21 +50,26 @@ Observed kept_for_default(const BehaviorTree& tree, const Network& network,
 
 DefaultQuestions::DefaultQuestions(const BehaviorTree& tree,
                                    const CompiledNetwork& system,
-                                   const std::vector<Sighting>& watched)
-    : nodes(tree.nodes.size()),
+                                   const std::vector<Sighting>& watched,
+                                   Asked what)
+    : asked(std::move(what)),
+      nodes(tree.nodes.size()),
       left_running(tree, system),
-      sightings(watched, system),
+      sightings(watched, system, asked.sightings),
       system_(system),
+      is_of_sightings_(!asked.of_tree && !asked.nodes.empty() &&
+                       std::ranges::find(asked.nodes, true) ==
+                           asked.nodes.end()),
       question_of_edge_(system.network().edge_count(), nullptr),
       is_like_time_(system.network().edge_count(), false) {
   const Network& network = system.network();
   for (const Automaton& automaton : network.automata) {
     for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
-      is_like_time_[automaton.first_edge + e] =
-          is_like_time(tree, automaton, automaton.edges[e]);
+      is_like_time_[automaton.first_edge + e] = automaton.edges[e].is_like_time;
     }
   }
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    if (!asked.has_node(NodeId{n})) continue;
     watch_node(network.automaton(NodeId{n}), nodes[n]);
   }
   for (const NodeId root : tree.roots) {

@@ -25,23 +25,39 @@ using FirstState = std::optional<StateId>;
 // Or by the first edge taken.
 using FirstStep = std::optional<FoundStep>;
 
+// Which of the questions a search is for.
+struct Asked {
+  bool of_tree = true;
+  std::vector<bool> nodes = {};      // by NodeId; empty: all
+  std::vector<bool> sightings = {};  // by number; empty: all
+
+  bool has_node(NodeId node) const {
+    return nodes.empty() || nodes[index(node)];
+  }
+  bool has_sighting(std::size_t number) const {
+    return sightings.empty() || sightings[number];
+  }
+};
+
 // Whether the roots have ended, and how. (A fault is never missed: it is dead.)
 // And where rounds of an unknown number begin, so that such a step is told by
 // itself.
-Observed seen_by_default(const BehaviorTree& tree, const Network& network);
+Observed seen_by_default(const BehaviorTree& tree, const Network& network,
+                         const Asked& asked = {});
 
 // Beyond that, which nodes run when some other gives control back or is ticked,
 // and what sightings ask. All of them stand below or beside that node, and what
 // they do is done by then in whatever order the rest of the tree moves; so it
 // need not be seen at once.
 Observed kept_for_default(const BehaviorTree& tree, const Network& network,
-                          const std::vector<Sighting>& sightings);
+                          const std::vector<Sighting>& sightings,
+                          const Asked& asked = {});
 
 // Watches the edges that fire for the questions of single nodes, the states for
 // those of the tree, and keeps every step for those that need steps twice.
 struct DefaultQuestions : public ReachabilityVisitor {
   DefaultQuestions(const BehaviorTree& tree, const CompiledNetwork& system,
-                   const std::vector<Sighting>& watched);
+                   const std::vector<Sighting>& watched, Asked what = {});
 
   void passed(StateId from, StateView before, Step step) {
     left_running.passed(from, before, step);
@@ -60,11 +76,13 @@ struct DefaultQuestions : public ReachabilityVisitor {
 
   // What comes to an end as time does is no part of a loop that takes none.
   void stepped(StateId from, Step step, StateId to) {
+    if (!asked.of_tree) return;
     if (step.edge != kTimeStep && is_like_time_[step.edge]) step.elapsed = 1;
     graph.add(from, step, to);
   }
 
   GoOn expanded(StateId id, StateView state, bool is_dead) {
+    if (!asked.of_tree) return has_all() ? GoOn::No : GoOn::Yes;
     const auto role = [&](const Automaton* root) {
       return root->locations[system_.value(state, root->location)].role;
     };
@@ -88,6 +106,9 @@ struct DefaultQuestions : public ReachabilityVisitor {
     return GoOn::Yes;
   }
 
+  // Only sightings are asked for, and each has been found.
+  bool has_all() const { return is_of_sightings_ && sightings.has_all(); }
+
   // From where each answer was found; some of these states more than once.
   std::vector<StateId> found_from() const;
 
@@ -95,6 +116,7 @@ struct DefaultQuestions : public ReachabilityVisitor {
     return graph.bytes() + (ended.size() + succeeded.size()) / 8 + beside;
   }
 
+  Asked asked;
   std::vector<std::array<FirstStep, kNodeQuestionCount>> nodes;
   LeftRunningWatch left_running;
   SightingWatch sightings;
@@ -114,6 +136,7 @@ struct DefaultQuestions : public ReachabilityVisitor {
                   std::array<FirstStep, kNodeQuestionCount>& questions);
 
   const CompiledNetwork& system_;
+  bool is_of_sightings_;
   std::vector<FirstStep*> question_of_edge_;  // null: none
   std::vector<bool> is_like_time_;            // by edge
   std::vector<const Automaton*> roots_;

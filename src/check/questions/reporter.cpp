@@ -139,11 +139,18 @@ std::optional<RunTree::Place> Reporter::executed(
     Place place, const std::vector<RunState>& steps) {
   if (at_ != place) replayer_.go_on_from(runs_->state(place));
   for (const RunState& each : steps) {
-    if (!replayer_.take(each.step, each.state)) return failed();
-    place = runs_->follow(place, each.step, replayer_.state());
+    if (!replayer_.take(each.step, each.state, following(place))) {
+      return failed();
+    }
   }
   at_ = place;
   return place;
+}
+
+Replayer::Taken Reporter::following(Place& place) {
+  return [this, &place](const Step& step, const Valuation& after) {
+    place = runs_->follow(place, step, after);
+  };
 }
 
 std::nullopt_t Reporter::failed() {

@@ -73,6 +73,8 @@ class Reporter {
   // From a place on, with these steps.
   std::optional<Place> executed(Place place,
                                 const std::vector<RunState>& steps);
+  // Takes the place along with what is executed.
+  Replayer::Taken following(Place& place);
   std::nullopt_t failed();
   bool has_time();
   KeptRun kept(const Run& run);

@@ -242,12 +242,15 @@ std::vector<NodeId> stale_guards(const BehaviorTree& tree,
 }
 
 SightingWatch::SightingWatch(const std::vector<Sighting>& sightings,
-                             const CompiledNetwork& system)
+                             const CompiledNetwork& system,
+                             const std::vector<bool>& asked)
     : system_(system),
       watched_(system.network().edge_count()),
       found_(sightings.size()) {
   const Network& network = system.network();
   for (std::size_t i = 0; i < sightings.size(); ++i) {
+    if (!asked.empty() && !asked[i]) continue;
+    ++open_;
     const Sighting& sighting = sightings[i];
     Watched watched{i, {}};
     for (const auto& [node, status] : sighting.with) {
@@ -277,7 +280,10 @@ void SightingWatch::look_at(StateId from, StateView state, std::uint32_t edge) {
               static_cast<int>(system_.value(state, needed.variable));
           return (value == needed.value) != needed.differs;
         });
-    if (is_so) found_[watched.number] = {from, edge, copied(state)};
+    if (is_so) {
+      found_[watched.number] = {from, edge, copied(state)};
+      --open_;
+    }
     return is_so;
   });
 }
@@ -289,6 +295,17 @@ std::vector<NodeId> may_be_left_running(const BehaviorTree& tree,
     nodes.insert(nodes.end(), way.begin(), way.end());
   });
   return nodes;
+}
+
+std::vector<std::vector<NodeId>> ways_left_running(const BehaviorTree& tree,
+                                                   const Network& network) {
+  std::vector<std::vector<NodeId>> ways;
+  for_each_way(tree, network,
+               [&](NodeId above, const std::vector<NodeId>& way) {
+                 ways.push_back(way);
+                 ways.back().push_back(above);
+               });
+  return ways;
 }
 
 LeftRunningWatch::LeftRunningWatch(const BehaviorTree& tree,

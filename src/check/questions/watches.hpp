@@ -46,8 +46,9 @@ std::vector<NodeId> stale_guards(const BehaviorTree& tree,
 // steps as a ReachabilityVisitor is.
 class SightingWatch {
  public:
+  // Of those that are asked for, by number; with none said, for all.
   SightingWatch(const std::vector<Sighting>& sightings,
-                const CompiledNetwork& system);
+                const CompiledNetwork& system, const std::vector<bool>& asked);
 
   bool is_heard(Step step) const {
     return step.edge != kTimeStep && !watched_[step.edge].empty();
@@ -58,6 +59,7 @@ class SightingWatch {
 
   // By the number of the sighting.
   const std::vector<std::optional<FoundStep>>& found() const { return found_; }
+  bool has_all() const { return open_ == 0; }
 
  private:
   // What has to be so: variable, value, and whether it has to be another one.
@@ -76,6 +78,7 @@ class SightingWatch {
   const CompiledNetwork& system_;
   std::vector<std::vector<Watched>> watched_;  // by edge: those not yet found
   std::vector<std::optional<FoundStep>> found_;
+  std::size_t open_ = 0;  // that are asked for and have not been found
 };
 
 // A leaf that runs, as do all nodes between it and `above`, when that one has
@@ -91,6 +94,9 @@ struct LeftRunningStep {
 // and may be left running.
 std::vector<NodeId> may_be_left_running(const BehaviorTree& tree,
                                         const Network& network);
+// By pair of nodes: the leaf and all that stand above it, up to the upper node.
+std::vector<std::vector<NodeId>> ways_left_running(const BehaviorTree& tree,
+                                                   const Network& network);
 
 // Looks for the first such step for each pair of nodes. To be told of single
 // steps as a ReachabilityVisitor is.

@@ -27,23 +27,36 @@ class Evidence {
  public:
   void add(Seen seen) { seen_.push_back(seen); }
 
-  // `first` gives the state or step that the questions have noted.
+  // `first` gives the state or step that the questions have noted. Of the tree:
   template <class First>
   Possibility possibility(First first) const {
-    Possibility answer;
-    for (const Seen& each : seen_) {
-      answer = each.reporter.possibility(std::invoke(first, each.questions));
-      if (answer.verdict != Verdict::Undecided) break;
-    }
-    return answer;
+    return told(first, [](const Asked& asked) { return asked.of_tree; });
+  }
+  // Of a node:
+  template <class First>
+  Possibility possibility(NodeId node, First first) const {
+    return told(first,
+                [node](const Asked& asked) { return asked.has_node(node); });
   }
 
+  const std::vector<Seen>& seen() const { return seen_; }
   bool has_sighting(std::size_t i) const;
   // A run up to the sighting, and on until what has to follow.
   std::optional<KeptRun> run_to(
       std::size_t sighting, const std::optional<Consequence>& then = {}) const;
 
  private:
+  template <class First, class IsAsked>
+  Possibility told(First first, IsAsked is_asked) const {
+    Possibility answer;
+    for (const Seen& each : seen_) {
+      if (!is_asked(each.questions.asked)) continue;
+      answer = each.reporter.possibility(std::invoke(first, each.questions));
+      if (answer.verdict != Verdict::Undecided) break;
+    }
+    return answer;
+  }
+
   std::vector<Seen> seen_;
 };
 

@@ -197,17 +197,23 @@ bool NetworkInterpreter::is_dead(const Valuation& state) const {
 }
 
 Replayer::Replayer(const Network& network, const CompiledNetwork& searched,
-                   const std::vector<bool>& forgotten)
+                   const std::vector<bool>& forgotten, const Composition* parts)
     : network_(network),
       interpreter_(network),
-      layout_(searched.layout()),
-      compared_(layout_.words),
-      packed_(layout_.words) {
-  for (std::size_t v = 0; v < layout_.fields.size(); ++v) {
-    const Field& field = layout_.fields[v];
-    if (!forgotten[v]) compared_[field.word] |= field.mask();
+      searched_(searched),
+      parts_(parts),
+      is_compared_(network.variables.size(), true),
+      compared_(searched.layout().words),
+      packed_(searched.layout().words) {
+  const StateLayout& layout = searched.layout();
+  for (std::size_t v = 0; v < is_compared_.size(); ++v) {
+    is_compared_[v] =
+        !forgotten[v] && (parts == nullptr || !parts->hidden()[v]);
+    const Field& field = layout.fields[v];
+    if (is_compared_[v]) compared_[field.word] |= field.mask();
   }
-  for (const std::optional<Field>& clock : layout_.clocks) {
+  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    const std::optional<Field>& clock = layout.clocks[a];
     if (clock) compared_[clock->word] |= clock->mask();
   }
 }
@@ -219,6 +225,7 @@ Replayer::Replayer(const CompiledNetwork& system)
 // The state is the one that the search saw, as far as it looked. What has not
 // changed since the last one is packed already.
 bool Replayer::is_seen(const StateVector& seen) {
+  const StateLayout& layout = searched_.layout();
   const auto pack = [&](const std::optional<Field>& field, int value) {
     if (!field) return value == 0;
     field->put(packed_.data(), value);
@@ -226,10 +233,13 @@ bool Replayer::is_seen(const StateVector& seen) {
   };
   bool fits = true;
   take_over(state_.variables, packed_state_.variables, [&](std::size_t v) {
-    fits = fits && pack(layout_.fields[v], state_.variables[v]);
+    if (!is_compared_[v]) return;
+    fits = fits && pack(layout.fields[v], state_.variables[v]);
   });
   take_over(state_.clocks, packed_state_.clocks, [&](std::size_t a) {
-    fits = fits && pack(layout_.clocks[a], state_.clocks[a]);
+    const AutomatonId id{static_cast<std::uint32_t>(a)};
+    if (parts_ != nullptr && !parts_->stands(id)) return;
+    fits = fits && pack(layout.clocks[a], state_.clocks[a]);
   });
   for (std::size_t w = 0; w < seen.size() && fits; ++w) {
     fits = ((packed_[w] ^ seen[w]) & compared_[w]) == 0;
@@ -245,26 +255,64 @@ bool Replayer::begin(const StateVector& seen) {
   return false;
 }
 
-bool Replayer::take(const Step& step, const StateVector& seen) {
+bool Replayer::take_single(const Step& step, const Taken& taken) {
+  if (!interpreter_.may_take(state_, step)) return false;
+  interpreter_.take(state_, step);
+  taken(step, state_);
+  return true;
+}
+
+ComponentTable::Fire Replayer::firing(const Taken& taken) {
+  return [&](std::uint32_t edge) {
+    const bool is_free =
+        network_.owner_of_edge(edge).kind == AutomatonKind::StateVariable;
+    return take_single({edge, 0, !is_free}, taken);
+  };
+}
+
+// Timers inside of components are taken as soon as they can be.
+bool Replayer::take_in_parts(const Step& step, const Taken& taken) {
+  const auto fire = firing(taken);
+  if (step.edge != kTimeStep) return parts_->take(state_, step.edge, fire);
+  if (!parts_->settle(state_, fire) || !take_single(step, taken)) return false;
+  for (bool fired = true; fired;) {
+    fired = std::ranges::any_of(parts_->hidden_timers(), fire);
+  }
+  return true;
+}
+
+bool Replayer::settle(const Taken& taken) {
+  if (parts_ == nullptr || parts_->settle(state_, firing(taken))) return true;
+  return failed(kIdleStep, "does not come");
+}
+
+bool Replayer::take(const Step& step, const StateVector& seen,
+                    const Taken& taken) {
   ++steps_;
-  const bool is_possible = interpreter_.may_take(state_, step);
-  if (is_possible) interpreter_.take(state_, step);
-  if (is_possible && is_seen(seen)) return true;
-  error_ = "step " + std::to_string(steps_) + ", " + step_name(network_, step) +
-           ", " + (is_possible ? "leads elsewhere" : "is not possible") +
-           " when replayed";
+  const bool is_possible =
+      parts_ == nullptr ? take_single(step, taken) : take_in_parts(step, taken);
+  if (!is_possible) return failed(step, "is not possible");
+  return is_seen(seen) || failed(step, "leads elsewhere");
+}
+
+bool Replayer::failed(const Step& step, const char* how) {
+  error_ = "step " + std::to_string(steps_) + ", " +
+           step_name(searched_.network(), step) + ", " + how + " when replayed";
   return false;
 }
 
 // What was forgotten depends, after one round of a loop, on the steps of that
-// round only: the second round ends where it began.
+// round only: the second round ends where it began. What stands inside of parts
+// may take some rounds more to come back to where it was.
 std::optional<Run> replay(Replayer replayer, const Lasso& found,
                           std::string& error) {
+  constexpr std::size_t kMostRounds = 64;
   Run run;
   const auto take = [&](const Step& step, const StateVector& words) {
-    if (!replayer.take(step, words)) return false;
-    run.steps.push_back({step, replayer.state()});
-    return true;
+    return replayer.take(step, words,
+                         [&](const Step& single, const Valuation& after) {
+                           run.steps.push_back({single, after});
+                         });
   };
   const auto take_from_first = [&](const std::vector<RunState>& way) {
     return std::all_of(way.begin() + 1, way.end(), [&](const RunState& each) {
@@ -277,11 +325,17 @@ std::optional<Run> replay(Replayer replayer, const Lasso& found,
     if (goes_on && found.cycle.empty()) return run;
     goes_on =
         goes_on && take(found.cycle.front().step, found.cycle.front().state);
-    for (int round = 0; round < 2 && goes_on; ++round) {
-      run.loop = run.steps.size();
+    std::vector<std::size_t> rounds;
+    for (std::size_t round = 0; round < kMostRounds && goes_on; ++round) {
+      rounds.push_back(run.steps.size());
       goes_on = take_from_first(found.cycle) &&
                 take(found.closing, found.cycle.front().state);
-      if (goes_on && run.state(run.loop) == run.steps.back().after) return run;
+      if (!goes_on) break;
+      for (const std::size_t begin : rounds) {
+        if (run.state(begin) != replayer.state()) continue;
+        run.loop = begin;
+        return run;
+      }
     }
   }
   error = replayer.error().empty() ? "the loop does not close when replayed"

@@ -3,12 +3,14 @@
 // Runs executed again from the network's tables, before anyone sees them.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "check/bind/verdict.hpp"
+#include "explore/components/composition.hpp"
 #include "explore/reduce/labels.hpp"
 #include "explore/state/step.hpp"
 
@@ -70,16 +72,23 @@ class NetworkInterpreter {
 // way must be the one that the search saw.
 class Replayer {
  public:
-  // `searched` may forget some of the network's values: those may differ. Both
-  // systems must outlive this.
+  // Told of each step of the network, and of the state behind it.
+  using Taken = std::function<void(const Step&, const Valuation&)>;
+
+  // `searched` may forget some of the network's values: those may differ. It
+  // may be made of `parts`: then each of its steps is some of the network's,
+  // or none. All must outlive this.
   Replayer(const Network& network, const CompiledNetwork& searched,
-           const std::vector<bool>& forgotten);
+           const std::vector<bool>& forgotten,
+           const Composition* parts = nullptr);
   // Nothing is forgotten.
   explicit Replayer(const CompiledNetwork& system);
 
   // False, and `error` says why, where the search has seen something else.
   bool begin(const StateVector& seen);
-  bool take(const Step& step, const StateVector& seen);
+  bool take(const Step& step, const StateVector& seen, const Taken& taken);
+  // What parts do by themselves, until time has to pass.
+  bool settle(const Taken& taken);
   const Valuation& state() const { return state_; }
   // Goes on from a state that has been executed before.
   void go_on_from(Valuation state) { state_ = std::move(state); }
@@ -87,11 +96,17 @@ class Replayer {
 
  private:
   bool is_seen(const StateVector& seen);
+  bool take_single(const Step& step, const Taken& taken);
+  bool take_in_parts(const Step& step, const Taken& taken);
+  ComponentTable::Fire firing(const Taken& taken);
+  bool failed(const Step& step, const char* how);
 
   const Network& network_;
   NetworkInterpreter interpreter_;
-  const StateLayout& layout_;  // of the system that was searched
-  StateVector compared_;       // all bits but those of what is forgotten
+  const CompiledNetwork& searched_;
+  const Composition* parts_;
+  std::vector<bool> is_compared_;  // by VariableId: not forgotten
+  StateVector compared_;           // the bits of what is not
   Valuation state_;
   Valuation packed_state_;  // an earlier state
   StateVector packed_;      // that one as the search would have it

@@ -22,7 +22,19 @@ SearchedNetwork::SearchedNetwork(const CompiledNetwork& system,
                                  Reduction reduction)
     : original_(system), reduced_(system) {
   if (reduction == Reduction::None) return;
-  live_ = forget_dead_values(system.network(), kept);
+  reduce(system.network(), seen, kept, reduction);
+}
+
+SearchedNetwork::SearchedNetwork(const CompiledNetwork& system,
+                                 const Composition& parts, const Observed& seen,
+                                 const Observed& kept)
+    : original_(system), parts_(&parts) {
+  reduce(parts.network(), seen, kept, Reduction::Full);
+}
+
+void SearchedNetwork::reduce(const Network& network, const Observed& seen,
+                             const Observed& kept, Reduction reduction) {
+  live_ = forget_dead_values(network, kept);
   compiled_.emplace(live_->network);
   reduced_ = ReducedNetwork(*compiled_);
   if (reduction != Reduction::Full) return;
@@ -37,7 +49,7 @@ std::optional<Run> SearchedNetwork::replayed(const Lasso& found,
 
 Replayer SearchedNetwork::replayer() const {
   if (!live_) return Replayer(original_);
-  return {original_.network(), *compiled_, live_->forgotten};
+  return {original_.network(), *compiled_, live_->forgotten, parts_};
 }
 
 Observed observed_alone(const Network& network,

@@ -11,6 +11,7 @@
 #include "check/bind/bound_property.hpp"
 #include "check/bind/verdict.hpp"
 #include "check/replay/replay.hpp"
+#include "explore/components/composition.hpp"
 #include "explore/reduce/live_variables.hpp"
 #include "explore/reduce/reduced_network.hpp"
 
@@ -29,6 +30,10 @@ class SearchedNetwork {
   // `kept` only on certain steps of the nodes concerned.
   SearchedNetwork(const CompiledNetwork& system, const Observed& seen,
                   const Observed& kept, Reduction reduction);
+  // With parts of the system as components: what is observed has to stand in
+  // `parts`, which must outlive this, and is told in terms of its network.
+  SearchedNetwork(const CompiledNetwork& system, const Composition& parts,
+                  const Observed& seen, const Observed& kept);
   SearchedNetwork(const SearchedNetwork&) = delete;
   SearchedNetwork& operator=(const SearchedNetwork&) = delete;
 
@@ -41,7 +46,11 @@ class SearchedNetwork {
   Replayer replayer() const;
 
  private:
+  void reduce(const Network& network, const Observed& seen,
+              const Observed& kept, Reduction reduction);
+
   const CompiledNetwork& original_;
+  const Composition* parts_ = nullptr;
   std::optional<LiveNetwork> live_;
   std::optional<CompiledNetwork> compiled_;  // live_'s
   std::optional<AmpleSets> ample_;

@@ -66,9 +66,13 @@ ComponentTable::ComponentTable(const Network& network,
 bool ComponentTable::is_only_in(AutomatonId root, PartSide side,
                                 VariableId variable) const {
   const auto& users = users_[index(variable)];
-  return !users.empty() && std::ranges::all_of(users, [&](std::uint32_t user) {
-    return is_below(AutomatonId{user}, root) == (side == PartSide::Inside);
-  });
+  if (users.empty()) return false;
+  const std::uint32_t first = first_inside_[index(root)];
+  if (side == PartSide::Inside) {
+    return users.front() >= first && users.back() <= index(root);
+  }
+  const auto user = std::ranges::lower_bound(users, first);
+  return user == users.end() || *user > index(root);
 }
 
 namespace {

@@ -5,11 +5,52 @@
 #include <utility>
 
 namespace btcheck {
+namespace {
+
+// All of a network but what its automata do, and what its values are called.
+Network frame_of(const Network& whole) {
+  Network frame;
+  frame.profile = whole.profile;
+  frame.ticks = whole.ticks;
+  frame.variables.reserve(whole.variables.size());
+  for (const Variable& each : whole.variables) {
+    frame.variables.push_back({each.role,
+                               {},
+                               each.min,
+                               each.max,
+                               each.initial,
+                               {},
+                               each.owner,
+                               each.scale,
+                               each.local});
+  }
+  frame.fault = whole.fault;
+  frame.arguments = whole.arguments;
+  frame.past = whole.past;
+  frame.node_automaton = whole.node_automaton;
+  frame.node_status = whole.node_status;
+  frame.node_caller = whole.node_caller;
+  frame.state_variable = whole.state_variable;
+  frame.state_automaton = whole.state_automaton;
+  for (const Automaton& automaton : whole.automata) {
+    Automaton& empty = frame.automata.emplace_back();
+    empty.kind = automaton.kind;
+    empty.name = automaton.name;
+    empty.node = automaton.node;
+    empty.state_variable = automaton.state_variable;
+    empty.location = automaton.location;
+    empty.gate = automaton.gate;
+    empty.locations = {{"start_", LocationRole::Start, {}}};
+  }
+  return frame;
+}
+
+}  // namespace
 
 Composition::Composition(ComponentTable& components, std::vector<bool> kept,
                          bool keeps_root)
     : components_(&components),
-      network_(components.network()),
+      network_(frame_of(components.network())),
       is_component_(network_.automata.size(), false),
       is_inside_(network_.automata.size(), false),
       hidden_(network_.variables.size(), false) {
@@ -42,6 +83,9 @@ Composition::Composition(ComponentTable& components, std::vector<bool> kept,
       hidden_timers_.push_back(timer.first_edge + e);
     }
   }
+  for (std::uint32_t a = 0; a < count; ++a) {
+    if (!is_inside_[a]) network_.automata[a] = whole.automata[a];
+  }
   network_.number_edges();
 }
 
@@ -62,7 +106,6 @@ std::optional<AutomatonId> Composition::lowest_above(
 
 void Composition::leave_out(AutomatonId automaton) {
   is_inside_[index(automaton)] = true;
-  network_.automata[index(automaton)].edges.clear();
   ++left_out_;
 }
 

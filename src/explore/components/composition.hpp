@@ -30,6 +30,10 @@ class Composition {
   const ComponentTable& components() const { return *components_; }
   // By VariableId of the whole: it stands in a component.
   const std::vector<bool>& hidden() const { return hidden_; }
+  // An automaton of the whole stands as it is.
+  bool stands(AutomatonId automaton) const {
+    return !is_inside_[index(automaton)];
+  }
 
   // Takes an edge of this network in a state of the whole one; see
   // ComponentTable::take.

@@ -125,11 +125,11 @@ std::optional<std::uint32_t> OpenPart::state_number(Values values) {
 std::uint32_t OpenPart::label_number(Label label) {
   const bool is_untimed = network().ticks == TickSemantics::None;
   const bool is_silent = is_always(label.guard) && label.updates.empty() &&
-                         !label.is_open_round &&
+                         !label.is_like_time &&
                          (is_untimed || label.when.is_urgent());
   if (is_silent) return LabelledGraph::kSilent;
   std::vector<std::int32_t> key = {label.when.lower, label.when.upper,
-                                   label.is_open_round};
+                                   label.is_like_time};
   append(key, label.guard);
   for (const Assignment& update : label.updates) {
     key.push_back(static_cast<std::int32_t>(index(update.variable)));
@@ -223,7 +223,7 @@ bool OpenPart::add_arc(std::uint32_t state, Component::Member which,
   };
   Label label;
   label.when = when;
-  label.is_open_round = edge.is_open_round;
+  label.is_like_time = edge.is_like_time;
   label.guard = residual(edge.guard, known);
   if (is_never(label.guard)) return true;
   if (is_always(label.guard)) label.guard = {};
@@ -601,7 +601,7 @@ std::optional<Component> OpenPart::drawn() {
         edge.when = label.when;
         edge.guard = label.guard;
         edge.updates = label.updates;
-        edge.is_open_round = label.is_open_round;
+        edge.is_like_time = label.is_like_time;
       }
       if (is_rest[p]) {
         Expression here = differs(gate_, 0);

@@ -31,7 +31,7 @@ class OpenPart {
   // that are not the part's own.
   struct Label {
     Interval when;
-    bool is_open_round = false;
+    bool is_like_time = false;
     Expression guard;
     std::vector<Assignment> updates;
   };

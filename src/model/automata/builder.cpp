@@ -224,8 +224,8 @@ void NodeBuilder::choice(LocationId source, LocationId target, Expression guard,
 
 void NodeBuilder::tells_why() { automaton().edges.back().tells_why = true; }
 
-void NodeBuilder::is_open_round() {
-  automaton().edges.back().is_open_round = true;
+void NodeBuilder::is_like_time() {
+  automaton().edges.back().is_like_time = true;
 }
 
 void NodeBuilder::executes(std::int32_t program, ScriptOutcomeKind outcome) {

@@ -116,7 +116,7 @@ class NodeBuilder {
   // The label of the edge drawn last tells why the node goes on as it does.
   void tells_why();
   // The edge drawn last begins another round of an unknown number.
-  void is_open_round();
+  void is_like_time();
   // The edge drawn last executes this program, if it is one, with this outcome.
   void executes(std::int32_t program, ScriptOutcomeKind outcome);
 

@@ -112,8 +112,9 @@ struct Edge {
   bool asks_world = false;
   // The label is the reason for what follows, not a child: `the time is up`.
   bool tells_why = false;
-  // Begins another round of an unknown number: not taken for ever.
-  bool is_open_round = false;
+  // Begins another round of an unknown number, or reaches a goal of another
+  // process: not taken for ever without time passing.
+  bool is_like_time = false;
   // XML trees: what happens to blackboard entries, in order.
   std::vector<ScriptStep> scripts = {};
 };

@@ -66,7 +66,7 @@ void draw_engine_repeat(NodeBuilder& draw) {
     if (rounds != kOpenRounds) return to;
     return build.once(name, [&](LocationId from) {
       draw.edge(from, to);
-      draw.is_open_round();
+      draw.is_like_time();
     });
   };
   const auto draw_child = [&](std::string_view occasion, LocationId then) {

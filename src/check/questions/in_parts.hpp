@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+//
+// The default report of a tree that is too large to be searched as a whole.
+#pragma once
+
+#include "check/questions/defaults.hpp"
+
+namespace btcheck {
+
+// Asks each question of the network in which all that it does not look at
+// stands as components (explore/components), the tree's with its roots, each
+// node's and each sighting's with these nodes. The answers are those of
+// check_defaults; what could not be had so is Undecided, and the report says by
+// which limit it was stopped. The network has to be at its start.
+DefaultReport check_defaults_in_parts(const BehaviorTree& tree,
+                                      const CompiledNetwork& system,
+                                      const Limits& limits);
+
+}  // namespace btcheck

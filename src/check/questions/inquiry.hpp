@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+//
+// What the default report asks of a tree, and what comes of the answers.
+#pragma once
+
+#include <vector>
+
+#include "check/findings/normal_tree.hpp"
+#include "check/findings/suspicion.hpp"
+#include "check/questions/defaults.hpp"
+#include "check/questions/witnesses.hpp"
+#include "model/automata/network.hpp"
+#include "model/tree/tree.hpp"
+
+namespace btcheck {
+
+class Inquiry {
+ public:
+  // Both must outlive this.
+  Inquiry(const BehaviorTree& tree, const Network& network);
+
+  const std::vector<Sighting>& sightings() const { return sightings_; }
+  const std::vector<Suspicion>& suspicions() const { return suspicions_; }
+
+  // Writes what is known into a report. `of_tree` has been asked for the tree
+  // as a whole, of all its states if `is_tree_complete`; with `is_complete` all
+  // that has not been seen does not happen.
+  void answer(const Seen& of_tree, bool is_tree_complete,
+              const Evidence& evidence, bool is_complete,
+              DefaultReport& report) &&;
+
+ private:
+  void answer_for_tree(const Seen& seen, bool is_complete,
+                       const Evidence& evidence, DefaultReport& report) const;
+  void report_guards(const Evidence& evidence, DefaultReport& report) const;
+
+  const BehaviorTree& tree_;
+  const Network& network_;
+  NormalTree normal_;
+  std::vector<Suspicion> suspicions_;
+  std::vector<NodeId> guarded_;
+  // Those of the suspicions in a row, and behind them each guarded action,
+  // ticked while it runs.
+  std::vector<Sighting> sightings_;
+};
+
+}  // namespace btcheck

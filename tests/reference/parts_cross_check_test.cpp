@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+//
+// The default report asked in parts against the one of the whole, on random
+// trees under every tick semantics: the same answers, the same findings, and
+// runs that end with what they are told for.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "check/questions/defaults.hpp"
+#include "check/questions/in_parts.hpp"
+#include "explore/state/step.hpp"
+#include "model/lowering.hpp"
+#include "model/tree_file.hpp"
+#include "reference/effort.hpp"
+#include "reference/random_tree.hpp"
+#include "reference/random_xml_tree.hpp"
+#include "reference/telling_names.hpp"
+
+namespace btcheck::reference::parts_cross_check_test {
+namespace {
+
+constexpr std::uint64_t kMostStatesOfTree = 20'000;
+
+struct Census {
+  std::size_t trees = 0;
+  std::size_t parts = 0;  // decided in full
+  std::size_t findings = 0;
+  std::size_t stuck = 0;  // some tree question is answered no
+  std::size_t never = 0;  // node questions
+};
+
+std::string found(const DefaultReport& report, const BehaviorTree& tree) {
+  std::set<std::string> all;
+  for (const TreeFinding& each : report.findings) {
+    all.insert(
+        fmt::format("{} at {}", each.code, tree.node(each.node).span.line));
+  }
+  for (const LeftRunningReport& each : report.left_running) {
+    all.insert(fmt::format("left running: {} by {}", index(each.leaf),
+                           index(each.above)));
+  }
+  for (const StaleGuardReport& each : report.stale_guards) {
+    all.insert(fmt::format("stale beside {}", index(each.action)));
+  }
+  return fmt::format("{}", fmt::join(all, "\n"));
+}
+
+// The run's last step brings the node to where the question asks.
+bool shows(const Network& network, const KeptRun& run, NodeId node,
+           NodeQuestion question) {
+  const auto steps = run.steps();
+  const LocationRole role =
+      kNodeQuestionRoles[static_cast<std::size_t>(question)];
+  return !steps.empty() && steps.back().edge != kTimeStep &&
+         node_entering(network, steps.back().edge, role) == node;
+}
+
+std::string flaw_of(const BehaviorTree& tree, TickSemantics ticks,
+                    Census& census) {
+  const Network network = lower(tree, ticks);
+  const CompiledNetwork system(network);
+  Limits few;
+  few.max_states = kMostStatesOfTree;
+  const DefaultReport whole =
+      check_defaults(tree, system, Reduction::None, few);
+  if (whole.stopped != StopReason::None) return {};
+  ++census.trees;
+  const DefaultReport parts = check_defaults_in_parts(tree, system, {});
+  if (!parts.error.empty()) return parts.error;
+  if (parts.stopped != StopReason::None) return {};
+  ++census.parts;
+  if (parts.tree.size() != whole.tree.size()) return "questions of the tree";
+  for (std::size_t i = 0; i < whole.tree.size(); ++i) {
+    census.stuck += whole.tree[i].verdict == Verdict::Violated;
+    if (whole.tree[i].verdict == parts.tree[i].verdict &&
+        whole.tree[i].run.has_value() == parts.tree[i].run.has_value()) {
+      continue;
+    }
+    return fmt::format("tree question {}: {} and {}", i,
+                       static_cast<int>(whole.tree[i].verdict),
+                       static_cast<int>(parts.tree[i].verdict));
+  }
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+      const Possibility& one = whole.nodes[n].answers[q];
+      const Possibility& other = parts.nodes[n].answers[q];
+      census.never += one.verdict == Verdict::Violated;
+      if (one.verdict != other.verdict) {
+        return fmt::format("node {}, {}: {} and {}", n, kNodeQuestionNames[q],
+                           static_cast<int>(one.verdict),
+                           static_cast<int>(other.verdict));
+      }
+      if (other.run && !shows(network, *other.run, NodeId{n},
+                              static_cast<NodeQuestion>(q))) {
+        return fmt::format("node {}: the run does not end with {}", n,
+                           kNodeQuestionNames[q]);
+      }
+    }
+  }
+  census.findings += whole.findings.size();
+  const std::string one = found(whole, tree);
+  const std::string other = found(parts, tree);
+  return one == other ? "" : one + "\n-- in parts\n" + other;
+}
+
+constexpr std::array<TickSemantics, 4> kTicks = {
+    TickSemantics::Root, TickSemantics::Leaves, TickSemantics::Nodes,
+    TickSemantics::None};
+constexpr std::array<Profile, 5> kProfiles = {
+    Profile::Btcpp38, Profile::Btcpp4, Profile::Nav2Humble, Profile::Nav2Jazzy,
+    Profile::Nav2Main};
+
+void tell(const Census& census) {
+  MESSAGE(census.trees << " trees, " << census.parts << " decided in parts; "
+                       << census.findings << " findings, " << census.stuck
+                       << " questions of trees answered no, " << census.never
+                       << " of nodes");
+  CHECK_COVERED(census.parts > census.trees / 2);
+  CHECK_COVERED(census.never > census.trees);
+}
+
+}  // namespace
+
+TEST_CASE("the default report in parts is that of the whole") {
+  Census census;
+  const std::uint64_t seed = seed_or(1);
+  const auto trees = by_effort<std::uint64_t>(250, 4000);
+  for (std::uint64_t i = 0; i < trees; ++i) {
+    const std::uint64_t here = seed * 1'000'000 + i;
+    const std::string text =
+        i % 3 == 2 ? random_tree(here, timed_weather()) : random_tree(here);
+    CAPTURE(text);
+    const auto tree = read_btf("t.btf", text);
+    REQUIRE(tree.value);
+    const TickSemantics ticks = kTicks[i % kTicks.size()];
+    CAPTURE(tick_name(ticks));
+    REQUIRE(flaw_of(*tree.value, ticks, census) == "");
+  }
+  tell(census);
+}
+
+TEST_CASE("the default report of XML in parts is that of the whole") {
+  Census census;
+  const std::uint64_t seed = seed_or(1);
+  const auto trees = by_effort<std::uint64_t>(400, 8000);
+  for (std::uint64_t i = 0; i < trees; ++i) {
+    TreeReading reading;
+    reading.profile = kProfiles[i % kProfiles.size()];
+    SplitMix64 random(seed * 1'000'003 + i);
+    std::string text = random_xml_tree(random.next(), *reading.profile);
+    text = with_telling_names(text, random.next());
+    CAPTURE(text);
+    const auto tree = read_tree("t.xml", text, reading);
+    if (!tree.value) continue;
+    const TickSemantics ticks = kTicks[i % 5 == 4 ? 3 : 0];
+    CAPTURE(tick_name(ticks));
+    REQUIRE(flaw_of(*tree.value, ticks, census) == "");
+  }
+  tell(census);
+}
+
+}  // namespace btcheck::reference::parts_cross_check_test
