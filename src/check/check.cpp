@@ -118,7 +118,7 @@ DefaultReport default_answers(const BehaviorTree& tree,
     }
   }
   if (known && options.choices.reduction == Reduction::Full && !options.start) {
-    attempt(check_defaults_in_parts, options.limits);
+    attempt(check_defaults_in_parts, options.limits, kNodesTogether);
     if (known->stopped != StopReason::MaxStates) return std::move(*known);
   }
   attempt(search, options.choices.reduction, options.limits, Sampling::WhenLong,

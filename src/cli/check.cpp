@@ -45,6 +45,10 @@ void print_statistics(const Options& options, const CheckedFile& file,
     states = std::max(states, verdict.progress.states);
   }
   if (file.defaults) states = file.defaults->progress.states;
+  if (file.defaults && file.defaults->searches > 0) {
+    tell(fmt::format("asked part by part, in {} searches\n",
+                     grouped(file.defaults->searches)));
+  }
   tell(fmt::format("explored up to {} states in {:.2f} s\n", grouped(states),
                    seconds));
 }

@@ -106,7 +106,9 @@ struct DefaultQuestions : public ReachabilityVisitor {
     return GoOn::Yes;
   }
 
-  // Only sightings are asked for, and each has been found.
+  // Nothing is asked but for sightings.
+  bool is_of_sightings() const { return is_of_sightings_; }
+  // And each has been found.
   bool has_all() const { return is_of_sightings_ && sightings.has_all(); }
 
   // From where each answer was found; some of these states more than once.

@@ -99,6 +99,7 @@ struct DefaultReport {
   std::vector<LeftRunningReport> left_running;  // as they were found
   std::vector<TreeFinding> findings;            // ranked
   SearchProgress progress;
+  std::size_t searches = 0;  // of parts of the tree; 0: one of the whole
   StopReason stopped = StopReason::None;
   std::string open;  // StopReason::OpenEntries: what is not known, in words
   // With any, the runs told are possible, but not the shortest.

@@ -25,10 +25,9 @@
 namespace btcheck {
 namespace {
 
-// Nodes of one group.
-constexpr std::size_t kTogether = 8;
-// States of one search.
+// States of one search, and of all: beyond that the whole is the better bet.
 constexpr std::uint64_t kMostStates = 65'536;
+constexpr std::uint64_t kMostStatesInAll = 2'000'000;
 
 // What is asked in one search, and which nodes have to stand for it.
 struct Group {
@@ -39,7 +38,8 @@ struct Group {
 // Nodes that stand together: each a part of the tree without gaps.
 class Neighbourhoods {
  public:
-  explicit Neighbourhoods(const BehaviorTree& tree) : top_(tree.nodes.size()) {
+  Neighbourhoods(const BehaviorTree& tree, std::size_t together)
+      : top_(tree.nodes.size()) {
     std::vector<std::size_t> size(tree.nodes.size(), 1);
     std::vector<bool> is_top(tree.nodes.size(), false);
     // In pre-order children follow their parents.
@@ -47,7 +47,7 @@ class Neighbourhoods {
       std::vector<NodeId> open = tree.nodes[n].children;
       std::ranges::sort(open, {}, [&](NodeId id) { return size[index(id)]; });
       for (const NodeId child : open) size[n] += size[index(child)];
-      for (; size[n] > kTogether && !open.empty(); open.pop_back()) {
+      for (; size[n] > together && !open.empty(); open.pop_back()) {
         is_top[index(open.back())] = true;
         size[n] -= size[index(open.back())];
       }
@@ -67,9 +67,9 @@ class Neighbourhoods {
 class Groups {
  public:
   Groups(const BehaviorTree& tree, const Network& network,
-         const std::vector<Sighting>& sightings)
+         const std::vector<Sighting>& sightings, std::size_t together)
       : tree_(tree), sightings_(sightings) {
-    const Neighbourhoods around(tree);
+    const Neighbourhoods around(tree, together);
     std::map<NodeId, std::size_t> of_top;
     for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
       const NodeId top = around.top(NodeId{n});
@@ -77,24 +77,26 @@ class Groups {
       if (is_new) all_.push_back(empty());
       ask(NodeId{n}, all_[known->second]);
     }
-    std::map<std::vector<NodeId>, std::size_t> apart;
+    // Those of nodes that stand apart; what stands for one may do for others.
+    std::map<std::vector<NodeId>, Group> apart;
     const auto group_of = [&](const std::vector<NodeId>& nodes) -> Group& {
       const NodeId top = around.top(nodes.front());
       const bool is_near = std::ranges::all_of(
           nodes, [&](NodeId node) { return around.top(node) == top; });
       if (is_near) return all_[of_top.at(top)];
-      const auto [known, is_new] = apart.try_emplace(nodes, all_.size());
-      if (is_new) {
-        all_.push_back(empty());
-        all_.back().nodes = nodes;
-      }
-      return all_[known->second];
+      Group& group = apart.try_emplace(nodes, empty()).first->second;
+      group.nodes = nodes;
+      return group;
     };
     for (std::size_t i = 0; i < sightings.size(); ++i) {
       group_of(nodes_of(sightings[i])).asked.sightings[i] = true;
     }
     // A watch of its own looks for these wherever their nodes stand.
-    for (const auto& way : ways_left_running(tree, network)) group_of(way);
+    for (std::vector<NodeId>& way : ways_left_running(tree, network)) {
+      std::ranges::sort(way);
+      group_of(way);
+    }
+    add_largest(apart);
   }
 
   const std::vector<Group>& all() const { return all_; }
@@ -125,6 +127,31 @@ class Groups {
   }
 
  private:
+  // Each with those whose nodes are among its own.
+  void add_largest(const std::map<std::vector<NodeId>, Group>& apart) {
+    std::vector<const Group*> by_size;
+    for (const auto& [nodes, group] : apart) by_size.push_back(&group);
+    std::ranges::stable_sort(
+        by_size, std::ranges::greater(),
+        [](const Group* each) { return each->nodes.size(); });
+    const std::size_t first = all_.size();
+    for (const Group* group : by_size) {
+      ask_budget();
+      const auto larger =
+          std::find_if(all_.begin() + static_cast<std::ptrdiff_t>(first),
+                       all_.end(), [&](const Group& each) {
+                         return std::ranges::includes(each.nodes, group->nodes);
+                       });
+      if (larger == all_.end()) {
+        all_.push_back(*group);
+        continue;
+      }
+      for (std::size_t i = 0; i < sightings_.size(); ++i) {
+        if (group->asked.has_sighting(i)) larger->asked.sightings[i] = true;
+      }
+    }
+  }
+
   Group empty() const {
     return {{},
             {false, std::vector<bool>(tree_.nodes.size(), false),
@@ -175,7 +202,15 @@ class PartSearch {
     return result_.is_complete || questions_.has_all();
   }
   Seen seen() { return {questions_, *reporter_}; }
-  void look_up() { reporter_->look_up(questions_.found_from()); }
+  // Somebody will ask what was found, or that it was not.
+  bool is_told() const {
+    return !questions_.is_of_sightings() || !questions_.found_from().empty();
+  }
+  // Of sightings few runs are asked for.
+  void look_up() {
+    if (questions_.is_of_sightings()) return;
+    reporter_->look_up(questions_.found_from());
+  }
 
  private:
   static std::vector<bool> standing(const Network& network,
@@ -195,61 +230,102 @@ class PartSearch {
   std::optional<Reporter> reporter_;
 };
 
+// All searches of a report.
+class SearchInParts {
+ public:
+  SearchInParts(const BehaviorTree& tree, const CompiledNetwork& system,
+                const Limits& limits)
+      : tree_(tree),
+        system_(system),
+        limits_(limits),
+        inquiry_(tree, system.network()),
+        components_(system.network(),
+                    std::vector<bool>(system.network().variables.size(), false),
+                    {}) {}
+
+  DefaultReport report(std::size_t together) && {
+    report_.reduction = Reduction::Full;
+    const Groups groups(tree_, system_.network(), inquiry_.sightings(),
+                        together);
+    const bool pays = search(groups.of_roots());
+    for (const Group& group : groups.all()) {
+      if (pays) answer(group, groups);
+    }
+    // What has been found is told.
+    const BudgetScope telling(nullptr);
+    Evidence evidence;
+    for (const auto& each : searches_) {
+      each->look_up();
+      evidence.add(each->seen());
+    }
+    PartSearch& of_tree = *searches_.front();
+    std::move(inquiry_).answer(of_tree.seen(), of_tree.is_complete(), evidence,
+                               report_.stopped == StopReason::None, report_);
+    return std::move(report_);
+  }
+
+ private:
+  bool goes_on() const {
+    return (report_.stopped == StopReason::None ||
+            report_.stopped == StopReason::MaxStates) &&
+           report_.progress.states < most_states();
+  }
+  std::uint64_t most_states() const {
+    return std::min(limits_.max_states, kMostStatesInAll);
+  }
+
+  void answer(const Group& group, const Groups& groups) {
+    const StopReason before = report_.stopped;
+    if (search(group) || !goes_on()) return;
+    const std::vector<Group> singles = groups.single(group);
+    if (singles.size() < 2) return;
+    report_.stopped = before;
+    for (const Group& single : singles) search(single);
+  }
+
+  // Whether all that the group asks is known then.
+  bool search(const Group& group) {
+    if (!goes_on()) {
+      if (report_.stopped == StopReason::None) {
+        report_.stopped = StopReason::MaxStates;
+      }
+      return false;
+    }
+    SearchProgress& all = report_.progress;
+    Limits few = limits_;
+    few.max_states = std::min(
+        kMostStates, most_states() - std::min(most_states(), all.states));
+    auto made = std::make_unique<PartSearch>(
+        tree_, system_, components_, group, inquiry_.sightings(), few, report_);
+    const auto& [stopped, is_complete, progress] = made->result();
+    all.states += progress.states;
+    all.expanded += progress.expanded;
+    all.transitions += progress.transitions;
+    all.depth = std::max(all.depth, progress.depth);
+    all.bytes = std::max(all.bytes, progress.bytes);
+    ++report_.searches;
+    const bool knows_all = made->is_complete();
+    if (!knows_all) report_.stopped = stopped;
+    if (made->is_told()) searches_.push_back(std::move(made));
+    return knows_all;
+  }
+
+  const BehaviorTree& tree_;
+  const CompiledNetwork& system_;
+  const Limits& limits_;
+  Inquiry inquiry_;
+  ComponentTable components_;
+  DefaultReport report_;
+  std::vector<std::unique_ptr<PartSearch>> searches_;
+};
+
 }  // namespace
 
 DefaultReport check_defaults_in_parts(const BehaviorTree& tree,
                                       const CompiledNetwork& system,
-                                      const Limits& limits) {
-  DefaultReport report;
-  report.reduction = Reduction::Full;
-  const Network& network = system.network();
-  Inquiry inquiry(tree, network);
-  ComponentTable components(
-      network, std::vector<bool>(network.variables.size(), false), {});
-  std::vector<std::unique_ptr<PartSearch>> searches;
-  Evidence evidence;
-  const auto search = [&](const Group& group) -> PartSearch& {
-    Limits few = limits;
-    few.max_states = std::min(
-        kMostStates, limits.max_states -
-                         std::min(limits.max_states, report.progress.states));
-    searches.push_back(std::make_unique<PartSearch>(
-        tree, system, components, group, inquiry.sightings(), few, report));
-    PartSearch& made = *searches.back();
-    const SearchProgress& progress = made.result().progress;
-    report.progress.states += progress.states;
-    report.progress.expanded += progress.expanded;
-    report.progress.transitions += progress.transitions;
-    report.progress.depth = std::max(report.progress.depth, progress.depth);
-    report.progress.bytes += progress.bytes;
-    if (!made.is_complete()) report.stopped = made.result().stopped;
-    evidence.add(made.seen());
-    return made;
-  };
-  const Groups groups(tree, network, inquiry.sightings());
-  PartSearch& of_tree = search(groups.of_roots());
-  const auto goes_on = [&] {
-    return report.stopped == StopReason::None ||
-           report.stopped == StopReason::MaxStates;
-  };
-  for (const Group& group : groups.all()) {
-    if (!goes_on()) break;
-    const StopReason before = report.stopped;
-    if (search(group).is_complete()) continue;
-    const std::vector<Group> singles = groups.single(group);
-    if (singles.size() < 2 || !goes_on()) continue;
-    report.stopped = before;
-    for (const Group& single : singles) {
-      if (goes_on()) search(single);
-    }
-  }
-  const bool is_complete = report.stopped == StopReason::None;
-  // What has been found is told.
-  const BudgetScope telling(nullptr);
-  for (const auto& each : searches) each->look_up();
-  std::move(inquiry).answer(of_tree.seen(), of_tree.is_complete(), evidence,
-                            is_complete, report);
-  return report;
+                                      const Limits& limits,
+                                      std::size_t together) {
+  return SearchInParts(tree, system, limits).report(together);
 }
 
 }  // namespace btcheck

@@ -3,6 +3,8 @@
 // The default report of a tree that is too large to be searched as a whole.
 #pragma once
 
+#include <cstddef>
+
 #include "check/questions/defaults.hpp"
 
 namespace btcheck {
@@ -11,9 +13,12 @@ namespace btcheck {
 // stands as components (explore/components), the tree's with its roots, each
 // node's and each sighting's with these nodes. The answers are those of
 // check_defaults; what could not be had so is Undecided, and the report says by
-// which limit it was stopped. The network has to be at its start.
+// which limit it was stopped. The network has to be at its start. Up to
+// `together` nodes that stand together are asked for in one search.
+inline constexpr std::size_t kNodesTogether = 8;
 DefaultReport check_defaults_in_parts(const BehaviorTree& tree,
                                       const CompiledNetwork& system,
-                                      const Limits& limits);
+                                      const Limits& limits,
+                                      std::size_t together = kNodesTogether);
 
 }  // namespace btcheck
