@@ -83,7 +83,9 @@ ExitCode run_space_graph(const Options& options, const Lowered& lowered,
     return is_written ? ExitCode::Met : ExitCode::BadInput;
   }
   WholeFile file(options.graph_file);
-  if (!write_to([&](std::string_view text) { return file.write(text); })) {
+  // Nothing is searched for a file that cannot be written.
+  if (file.write("") &&
+      !write_to([&](std::string_view text) { return file.write(text); })) {
     return ExitCode::BadInput;
   }
   const std::string complaint = file.keep();
