@@ -23,7 +23,7 @@ struct SpaceContext {
   const SpaceOptions& options;
   double seconds = 0;
   std::uint64_t peak_bytes = 0;             // of the process
-  std::optional<Equivalence> modulo;        // of a quotient that was asked for
+  std::optional<Equivalence> modulo = {};   // of a quotient that was asked for
   const SpaceQuotient* quotient = nullptr;  // null where the whole is not known
 };
 
