@@ -7,10 +7,10 @@
 //   minimise_growth [LARGEST]   states of the largest graphs, 1,000,000
 //
 // Graphs: `random`, four steps from each state to any other, half of them
-// hidden, of three other labels; `chain`, one step after the other, all with
-// one label, whose states are told apart one by one from the end, which takes a
-// method that splits by rounds n rounds; `hidden chain`, the same of hidden
-// steps with one visible step at each hundredth state.
+// hidden, the others of three labels; `chain`, one step after the other, all
+// with one label, whose states are told apart one by one from the end, which
+// takes a method that splits by rounds n rounds; `hidden chain`, the same of
+// hidden steps with one visible step at each hundredth state.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ LabelledGraph random_steps(std::uint32_t states) {
   for (std::uint32_t s = 0; s < states; ++s) {
     for (Arc& arc : arcs) {
       const auto label = static_cast<std::uint32_t>(random() % 6);
-      arc = {label > 3 ? LabelledGraph::kSilent : label % 4,
+      arc = {label > 3 ? LabelledGraph::kSilent : label,
              static_cast<std::uint32_t>(random() % states)};
     }
     graph.add_state(arcs);
