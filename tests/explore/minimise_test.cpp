@@ -52,9 +52,10 @@ TEST_CASE("a shortest run that one has and the other has not is told") {
       graph_of({{{1, 1}}, {{2, 2}}, {}, {{0, 4}}, {{1, 5}}, {{1, 2}}});
   const ComparedRuns compared = compare_runs(graph, 0, 3);
   CHECK(compared.is_complete);
-  CHECK(compared.difference == RunDifference{false, {1, 1}, RunEnd::Step});
+  CHECK(compared.difference ==
+        RunDifference{false, {1, 1}, DifferenceEnd::Step});
   CHECK(compare_runs(graph, 3, 0).difference ==
-        RunDifference{true, {1, 1}, RunEnd::Step});
+        RunDifference{true, {1, 1}, DifferenceEnd::Step});
   CHECK(!compare_runs(graph, 3, 4).difference);
   CHECK(!compare_runs(graph, 0, 3, 1).is_complete);
 }
@@ -63,11 +64,11 @@ TEST_CASE("the end of a run tells states apart as well") {
   const LabelledGraph graph =
       graph_of({{{1, 1}, {1, 2}}, {}, {{0, 2}}, {{1, 1}}, {{1, 2}}});
   CHECK(compare_runs(graph, 0, 3).difference ==
-        RunDifference{true, {1}, RunEnd::Silence});
+        RunDifference{true, {1}, DifferenceEnd::Silence});
   CHECK(compare_runs(graph, 4, 0).difference ==
-        RunDifference{false, {1}, RunEnd::Stop});
+        RunDifference{false, {1}, DifferenceEnd::Stop});
   CHECK(compare_runs(graph, 1, 2).difference ==
-        RunDifference{true, {}, RunEnd::Stop});
+        RunDifference{true, {}, DifferenceEnd::Stop});
 }
 
 TEST_CASE("a choice made early is told apart by no run") {

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kLongest = 5;
 
-using Run = std::pair<std::vector<std::uint32_t>, RunEnd>;
+using Run = std::pair<std::vector<std::uint32_t>, DifferenceEnd>;
 
 // A state silently reaches one that it silently comes back to.
 bool goes_on_silently(const LabelledGraph& graph, std::uint32_t from) {
@@ -48,9 +48,10 @@ std::set<Run> short_runs(const LabelledGraph& graph, std::uint32_t start) {
   while (!open.empty()) {
     const auto [state, labels] = open.back();
     open.pop_back();
-    if (!labels.empty()) runs.emplace(labels, RunEnd::Step);
-    if (graph.arcs(state).empty()) runs.emplace(labels, RunEnd::Stop);
-    if (goes_on_silently(graph, state)) runs.emplace(labels, RunEnd::Silence);
+    if (!labels.empty()) runs.emplace(labels, DifferenceEnd::Step);
+    if (graph.arcs(state).empty()) runs.emplace(labels, DifferenceEnd::Stop);
+    if (goes_on_silently(graph, state))
+      runs.emplace(labels, DifferenceEnd::Silence);
     for (const LabelledGraph::Arc& arc : graph.arcs(state)) {
       Place next{arc.target, labels};
       if (arc.label != LabelledGraph::kSilent) next.second.push_back(arc.label);
@@ -99,9 +100,9 @@ TEST_CASE("no run that tells two states apart is shorter than what is found") {
     REQUIRE(of_first.contains(run) == found.is_of_first);
     REQUIRE(of_second.contains(run) == !found.is_of_first);
     ++different;
-    by_step += found.end == RunEnd::Step;
-    by_stop += found.end == RunEnd::Stop;
-    by_silence += found.end == RunEnd::Silence;
+    by_step += found.end == DifferenceEnd::Step;
+    by_stop += found.end == DifferenceEnd::Stop;
+    by_silence += found.end == DifferenceEnd::Silence;
   }
   CHECK_COVERED(different > graphs / 4);
   CHECK_COVERED(by_step > 10);

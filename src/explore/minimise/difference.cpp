@@ -116,22 +116,23 @@ class RunComparison {
 
   std::optional<RunDifference> difference_at(std::size_t place) const {
     const auto& [first, second] = *reached_[place].pair;
-    const auto run = [&](bool is_of_first, RunEnd end) {
+    const auto run = [&](bool is_of_first, DifferenceEnd end) {
       return RunDifference{is_of_first, labels_up_to(place), end};
     };
-    if (second.empty()) return run(true, RunEnd::Step);
-    if (first.empty()) return run(false, RunEnd::Step);
+    if (second.empty()) return run(true, DifferenceEnd::Step);
+    if (first.empty()) return run(false, DifferenceEnd::Step);
     const auto stops = [&](const States& states) {
       return std::ranges::any_of(
           states, [&](std::uint32_t s) { return graph_.arcs(s).empty(); });
     };
-    if (stops(first) != stops(second)) return run(stops(first), RunEnd::Stop);
+    if (stops(first) != stops(second))
+      return run(stops(first), DifferenceEnd::Stop);
     const auto is_silent = [&](const States& states) {
       return std::ranges::any_of(
           states, [&](std::uint32_t s) { return is_endless_[s]; });
     };
     if (is_silent(first) != is_silent(second)) {
-      return run(is_silent(first), RunEnd::Silence);
+      return run(is_silent(first), DifferenceEnd::Silence);
     }
     return std::nullopt;
   }

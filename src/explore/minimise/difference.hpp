@@ -13,7 +13,7 @@
 namespace btcheck {
 
 // How a run ends that one of two states has and the other has not.
-enum class RunEnd : std::uint8_t {
+enum class DifferenceEnd : std::uint8_t {
   Step,    // with the last of its labels
   Stop,    // in a state from which nothing leads
   Silence  // by going on silently for ever
@@ -22,7 +22,7 @@ enum class RunEnd : std::uint8_t {
 struct RunDifference {
   bool is_of_first = true;            // which of the two states has the run
   std::vector<std::uint32_t> labels;  // of the steps that are seen, in order
-  RunEnd end = RunEnd::Step;
+  DifferenceEnd end = DifferenceEnd::Step;
 
   friend bool operator==(const RunDifference&, const RunDifference&) = default;
 };
