@@ -11,7 +11,9 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <variant>
 #include <vector>
@@ -20,9 +22,12 @@
 #include "batch/entries/entries.hpp"
 #include "batch/leaves.hpp"
 #include "check/export/export_model.hpp"
+#include "check/space/graph.hpp"
+#include "check/space/quotient.hpp"
 #include "check/space/space.hpp"
 #include "cli/console/console.hpp"
 #include "cli/from.hpp"
+#include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/options/tables.hpp"
@@ -43,15 +48,49 @@ namespace {
 
 // --- space ---------------------------------------------------------------
 
-// The graph of a small space, to a file or instead of its figures.
-ExitCode run_space_graph(const Options& options, const Lowered& lowered) {
+// Equivalence of --reduce, and what is seen, of all states.
+std::optional<SpaceQuotient> quotient_asked(const Options& options,
+                                            const Network& network) {
+  if (!options.modulo) return std::nullopt;
   Watch watch(options);
-  const auto graph = space_graph(lowered.network, *options.graph, watch.limits,
-                                 lowered.tree.file, options.reduce);
-  watch.monitor.clear();
-  show(options, graph.diagnostics);
-  if (!graph.value) return ExitCode::BadInput;
-  return write_output(options.graph_file, *graph.value);
+  return quotient_of_space(network, *options.modulo,
+                           options.seen.value_or(SeenAnswers::OfAll),
+                           watch.limits);
+}
+
+// The graph of the space or of its quotient, to a file or instead of the
+// figures.
+ExitCode run_space_graph(const Options& options, const Lowered& lowered,
+                         const std::optional<SpaceQuotient>& quotient) {
+  Watch watch(options);
+  const std::string& tree = lowered.tree.file;
+  const auto write_to = [&](const GraphSink& sink) {
+    const auto found =
+        quotient
+            ? write_quotient(*quotient, *options.graph, tree, sink)
+            : write_space_graph(lowered.network,
+                                {*options.graph, options.reduce, options.seen},
+                                watch.limits, tree, sink);
+    watch.monitor.clear();
+    show(options, found);
+    return found.empty();
+  };
+  if (options.graph_file.empty()) {
+    const bool is_written = write_to([](std::string_view text) {
+      print_exactly(text);
+      return true;
+    });
+    return is_written ? ExitCode::Met : ExitCode::BadInput;
+  }
+  WholeFile file(options.graph_file);
+  // Nothing is searched for a file that cannot be written.
+  if (file.write("") &&
+      !write_to([&](std::string_view text) { return file.write(text); })) {
+    return ExitCode::BadInput;
+  }
+  const std::string complaint = file.keep();
+  if (!complaint.empty()) complain("BT0004", complaint);
+  return complaint.empty() ? ExitCode::Met : ExitCode::BadInput;
 }
 
 ExitCode run_space_of_one(const Options& options) {
@@ -64,8 +103,10 @@ ExitCode run_space_of_one(const Options& options) {
       return ExitCode::BadInput;
     }
   }
+  std::optional<SpaceQuotient> quotient;
   if (options.graph) {
-    const ExitCode code = run_space_graph(options, *lowered);
+    quotient = quotient_asked(options, lowered->network);
+    const ExitCode code = run_space_graph(options, *lowered, quotient);
     if (code != ExitCode::Met || options.graph_file.empty()) {
       return worst_of(code, lowered->code());
     }
@@ -77,8 +118,17 @@ ExitCode run_space_of_one(const Options& options) {
                          threads_to_use(options),
                          {options.scratch_dir}};
   const SpaceReport report = measure_space(lowered->network, how, watch.limits);
-  const SpaceContext context{lowered->tree.file, lowered->network, how,
-                             watch.monitor.seconds(), peak_bytes()};
+  const double seconds = watch.monitor.seconds();
+  if (!quotient && report.result.is_complete) {
+    quotient = quotient_asked(options, lowered->network);
+  }
+  const SpaceContext context{lowered->tree.file,
+                             lowered->network,
+                             how,
+                             seconds,
+                             peak_bytes(),
+                             options.modulo,
+                             quotient ? &*quotient : nullptr};
   watch.monitor.clear();
   if (options.statistics == StatisticsFormat::Json) {
     print_exactly(space_json(report, context));
@@ -96,9 +146,10 @@ ExitCode run_space_of_one(const Options& options) {
     print(contribution_text(lowered->tree, parts));
   }
   tell_of_disk(options, report.result.stopped);
-  return worst_of(lowered->code(), report.result.is_complete
-                                       ? ExitCode::Met
-                                       : ExitCode::Undecided);
+  const bool is_complete = report.result.is_complete &&
+                           (!quotient || quotient->stopped == StopReason::None);
+  return worst_of(lowered->code(),
+                  is_complete ? ExitCode::Met : ExitCode::Undecided);
 }
 
 // `btcheck space TREE`. Of a .btproj all trees that its files name, one after

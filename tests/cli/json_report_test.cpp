@@ -221,6 +221,31 @@ TEST_CASE("names that are no UTF-8 do not break the figures of a space") {
   CHECK(Json::parse(text)["tree"] == "\ufffd.btf");
 }
 
+TEST_CASE("a quotient that is not known has no figures") {
+  const Network network;
+  const SpaceOptions options;
+  SpaceQuotient quotient;
+  SpaceContext context{"t.btf", network, options};
+  CHECK(!Json::parse(space_json({}, context)).contains("quotient"));
+  context.modulo = Equivalence::Branching;
+  context.quotient = &quotient;
+  quotient.stopped = StopReason::Memory;
+  Json told = Json::parse(space_json({}, context));
+  CHECK(told["reduce"] == "bisimulation");
+  CHECK(told["quotient"]["states"].is_null());
+  CHECK(told["quotient"]["stopped"] == "memory");
+  quotient.stopped = StopReason::None;
+  quotient.graph.add_state({});
+  quotient.labels = {"i", "time"};
+  told = Json::parse(space_json({}, context))["quotient"];
+  CHECK(told["equivalence"] == "branching-with-divergence");
+  CHECK(told["observe"] == "all");
+  CHECK(told["states"] == 1);
+  CHECK(told["transitions"] == 0);
+  CHECK(told["labels"] == 1);
+  CHECK(told["stopped"].is_null());
+}
+
 TEST_CASE("a repair is told by the lines that it changes") {
   Report report = report_of(kSmallTree, kRules);
   REQUIRE(!report.trees[0].findings.empty());

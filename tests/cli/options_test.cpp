@@ -81,6 +81,33 @@ TEST_CASE("a tree alone is checked with every default") {
 
 TEST_CASE("space leaves nothing out unless it is told to") {
   CHECK(options_of({"space", "t.btf"}).reduce == Reduction::None);
+  CHECK(!options_of({"space", "t.btf"}).modulo);
+}
+
+TEST_CASE("space has quotients, of all states") {
+  const Options hidden =
+      options_of({"space", "t.btf", "--reduce", "bisimulation"});
+  CHECK(hidden.reduce == Reduction::None);
+  CHECK(hidden.modulo == Equivalence::Branching);
+  CHECK(!hidden.seen);
+  const Options strong = options_of(
+      {"space", "t.btf", "--reduce", "strong", "--observe", "leaves"});
+  CHECK(strong.reduce == Reduction::None);
+  CHECK(strong.modulo == Equivalence::Strong);
+  CHECK(strong.seen == SeenAnswers::OfLeaves);
+  CHECK(options_of({"space", "t.btf", "--export", "aut", "--observe", "root"})
+            .seen == SeenAnswers::OfRoot);
+  for (const Words& line : std::vector<Words>{
+           {"t.btf", "--reduce", "bisimulation"},
+           {"t.btf", "--observe", "all"},
+           {"space", "t.btf", "--observe", "nobody"},
+           {"space", "t.btf", "--observe", "all"},
+           {"space", "t.btf", "--observe", "all", "--reduce", "live"},
+           {"space", "t.btf", "--observe", "all", "--reduce", "full",
+            "--export", "aut"}}) {
+    CAPTURE(line.back());
+    CHECK(answer_to(line).code == ExitCode::BadInput);
+  }
 }
 
 TEST_CASE("the first word may be a command") {

@@ -9,6 +9,37 @@
 
 namespace btcheck::space_report_test {
 
+TEST_CASE("a quotient stands beside the whole, with what is seen") {
+  const Network network;
+  const SpaceOptions options;
+  SpaceReport report;
+  report.result.is_complete = true;
+  report.result.progress.states = 1840;
+  report.result.progress.transitions = 2000;
+  SpaceQuotient quotient;
+  quotient.seen = SeenAnswers::OfLeaves;
+  const LabelledGraph::Arc arc{1, 0};
+  quotient.graph.add_state({&arc, 1});
+  quotient.labels = {"i", "time"};
+  SpaceContext context{"t.btf", network, options};
+  context.modulo = Equivalence::Branching;
+  context.quotient = &quotient;
+  const std::string text = space_text(report, context);
+  CHECK(text.find("reduce bisimulation\n") != text.npos);
+  CHECK(text.ends_with(
+      "Modulo branching bisimilarity with divergence; seen: the leaves' "
+      "answers, time\n"
+      "  states                          1 of 1,840\n"
+      "  transitions                     1 of 2,000\n"
+      "  labels seen                     1\n"));
+  quotient.stopped = StopReason::Memory;
+  CHECK(space_text(report, context).find("UNDECIDED  not minimised, ") !=
+        std::string::npos);
+  quotient.equivalence = Equivalence::Strong;
+  CHECK(space_text(report, context).find("Modulo strong bisimilarity;") !=
+        std::string::npos);
+}
+
 TEST_CASE("the largest parts are named with a way to make them smaller") {
   const auto read = read_btf(
       "t.btf",

@@ -182,6 +182,7 @@ const std::map<std::string_view, std::string> kValues = {
     {"--view", "--view"},
     {"--stats", "--stats json"},
     {"--export", "--export aut=new.aut"},
+    {"--observe", "--observe root"},
     {"--to", "--to smv"},
     {"--namespace", "--namespace robot"},
     {"-o", "-o new.txt"},
@@ -300,6 +301,8 @@ std::vector<std::string> lines_of(const CommandRow& row,
     case Command::Export:
       return {line + " --to promela",
               line + " --to promela --prop trees/t.ltl"};
+    case Command::Space:
+      return {line, line + " --reduce bisimulation"};
     case Command::Simulate:
       return {line + " --seed 3 --ticks 8",
               line + " --seed 3 --ticks 60 --loop"};

@@ -99,6 +99,8 @@ TEST_CASE("a file that cannot be written in full is not there") {
            kDrone + " --prop " + kDroneRules + " --format sarif=r.sarif",
            kDrone + " --prop " + kDroneRules + " --format junit=r.xml",
            "space " BTCHECK_EXAMPLES "/mars_rover.btf --export aut=graph.aut",
+           "space " BTCHECK_EXAMPLES
+           "/mars_rover.btf --reduce strong --export aut=graph.aut",
            "simulate " + kDrone + " --seed 3 -o run.itf.json",
            "trace RUN --to html -o run.html",
            "trace RUN --to mcap -o run.mcap"}) {

@@ -83,9 +83,11 @@ def look_at_tree(folder, tree, out):
     written("report", btcheck(folder, "lint", tree, *rules, "--format", "json",
                               "--format", f"gitlab={out}/issues"), what)
     issues((out / "issues").read_text(), f"lint {what}")
-    space = btcheck(folder, "space", tree, *limits, "--stats", "json")
-    if space:  # a tree that can be read
-        written("space", space, what)
+    for reduce in ("none", "bisimulation", "strong"):
+        space = btcheck(folder, "space", tree, *limits, "--reduce", reduce,
+                        "--stats", "json")
+        if space:  # a tree that can be read
+            written("space", space, f"{what}, {reduce}")
     for file in sorted(runs.glob("*.itf.json")):
         if next(run_number) % 4:
             continue

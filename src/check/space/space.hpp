@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// The state space of a network: measured, or as a graph for other programs.
+// The state space of a network, measured.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
-#include <string_view>
 
 #include "explore/large/scratch.hpp"
 #include "explore/reduce/observed.hpp"
 #include "explore/search/reachability.hpp"
 #include "explore/state/limits.hpp"
 #include "model/automata/network.hpp"
-#include "text/diagnostic.hpp"
 
 namespace btcheck {
 
@@ -42,20 +39,5 @@ struct SpaceReport {
 // a folder for it.
 SpaceReport measure_space(const Network& network, const SpaceOptions& options,
                           const Limits& limits);
-
-enum class GraphFormat : std::uint8_t {
-  Aldebaran,  // `des (0, transitions, states)` and a line for each (CADP)
-  Dot         // Graphviz
-};
-
-// Every reachable state, numbered as a breadth-first search finds it, from 0,
-// and every step with its edge as the label (`land_btn12.tick_node -> success`)
-// or `time`, and what it assigns. A step of a reduced graph has the labels of
-// the steps that it stands for. Idle steps are left out: a state from which
-// nothing leads is dead. An error, which names `file`, when there are more than
-// 100,000 states, or 2,000 to be drawn, or a limit stops the search.
-Result<std::string> space_graph(const Network& network, GraphFormat format,
-                                const Limits& limits, std::string_view file,
-                                Reduction reduce = Reduction::None);
 
 }  // namespace btcheck

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -185,25 +186,22 @@ std::string write_file(const std::string& name, const std::string& text) {
 
 namespace {
 
-// With these permissions, or those that a new file has.
-std::string put_in_place(const std::string& name, const std::string& text,
-                         std::optional<mode_t> mode) {
-  const std::scoped_lock writing(output_mutex());
-  // Nobody has it: neither another process, on another machine perhaps, nor
-  // somebody who has put a link there.
-  static std::uint64_t count = 0;
+// Opens a new file beside the one that is meant, and says how it is called.
+// Nobody has that name: neither another process, on another machine perhaps,
+// nor somebody who has put a link there. Where it is not open, errno says why.
+std::string open_beside(const std::string& name,
+                        std::optional<OpenFile>& file) {
+  static std::atomic<std::uint64_t> count = 0;
   std::string temporary;
-  std::optional<OpenFile> file;
   do {
     temporary = fmt::format("{}.{}-{}.tmp", name, ::getpid(), ++count);
     file.emplace(temporary, O_WRONLY | O_CREAT | O_EXCL);
   } while (!file->is_open() && errno == EEXIST);
-  if (!file->is_open() || (mode && ::fchmod(file->number(), *mode) != 0) ||
-      !file->write(text)) {
-    const std::string complaint = cannot_write(name);
-    std::remove(temporary.c_str());
-    return complaint;
-  }
+  return temporary;
+}
+
+// Gives the temporary file its name, or removes it.
+std::string put_under(const std::string& name, const std::string& temporary) {
   std::error_code fault;
   std::filesystem::rename(temporary, name, fault);
   if (!fault) return {};
@@ -211,7 +209,54 @@ std::string put_in_place(const std::string& name, const std::string& text,
   return fmt::format("cannot write `{}`: {}", name, fault.message());
 }
 
+// With these permissions, or those that a new file has.
+std::string put_in_place(const std::string& name, const std::string& text,
+                         std::optional<mode_t> mode) {
+  const std::scoped_lock writing(output_mutex());
+  std::optional<OpenFile> file;
+  const std::string temporary = open_beside(name, file);
+  if (!file->is_open() || (mode && ::fchmod(file->number(), *mode) != 0) ||
+      !file->write(text)) {
+    const std::string complaint = cannot_write(name);
+    std::remove(temporary.c_str());
+    return complaint;
+  }
+  return put_under(name, temporary);
+}
+
 }  // namespace
+
+WholeFile::WholeFile(std::string name) : name_(std::move(name)) {
+  if (is_device(name_)) {
+    file_.emplace(name_, O_WRONLY | O_APPEND);
+  } else {
+    temporary_ = open_beside(name_, file_);
+  }
+  if (file_->is_open()) return;
+  complaint_ = cannot_write(name_);
+  temporary_.clear();
+}
+
+WholeFile::~WholeFile() {
+  if (!temporary_.empty()) std::remove(temporary_.c_str());
+}
+
+bool WholeFile::write(std::string_view text) {
+  const std::scoped_lock writing(output_mutex());
+  if (complaint_.empty() && !file_->write(text)) {
+    complaint_ = cannot_write(name_);
+  }
+  return complaint_.empty();
+}
+
+std::string WholeFile::keep() {
+  const std::scoped_lock writing(output_mutex());
+  if (complaint_.empty() && !temporary_.empty()) {
+    complaint_ = put_under(name_, temporary_);
+    temporary_.clear();
+  }
+  return complaint_;
+}
 
 std::string replace_file(const std::string& name, const std::string& text) {
   return put_in_place(name, text, std::nullopt);

@@ -67,6 +67,27 @@ Result<InputFile> read_file_in(const std::vector<std::string>& roots,
 // what went wrong, or "".
 std::string write_file(const std::string& name, const std::string& text);
 
+// The same piece by piece, for what is too large to be held as a text: nothing
+// is there under the name before `keep`, and nothing is left without it.
+class WholeFile {
+ public:
+  explicit WholeFile(std::string name);
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  // False: something went wrong, now or before, and `keep` says what.
+  bool write(std::string_view text);
+  // Puts it in its place. Returns what went wrong, or "".
+  std::string keep();
+
+ private:
+  std::string name_;
+  std::string temporary_;  // "" for a device, and when it is gone
+  std::optional<OpenFile> file_;
+  std::string complaint_;
+};
+
 // The same, and nothing is ever written to what is there under that name.
 std::string replace_file(const std::string& name, const std::string& text);
 

@@ -83,13 +83,36 @@ void settle_choice(const OptionWords& words, std::string_view name,
   if (words.has(name)) settle_choice(words, name, chosen.emplace());
 }
 
+// The last two choices of `space` are no reductions of its search: they say
+// which of the states that it finds count as one.
+void settle_reduction(const OptionWords& words, Options& options) {
+  if (options.command != Command::Space) {
+    settle_choice(words, "--reduce", options.reduce);
+    return;
+  }
+  options.reduce = Reduction::None;
+  const std::string word = words.value("--reduce");
+  if (word == "bisimulation") {
+    options.modulo = Equivalence::Branching;
+  } else if (word == "strong") {
+    options.modulo = Equivalence::Strong;
+  } else {
+    settle_choice(words, "--reduce", options.reduce);
+  }
+  settle_choice(words, "--observe", options.seen);
+  if (words.has("--observe") && !options.modulo &&
+      (!words.has("--export") || options.reduce != Reduction::None)) {
+    refuse("--observe needs --reduce bisimulation, or --export of all steps",
+           "it says which answers are seen of a quotient, or of a graph");
+  }
+}
+
 void settle_search(const OptionWords& words, Options& options) {
   if (words.has("--assume")) options.assume = ExtraAssumption::ActionsEnd;
   settle_choice(words, "--tick", options.ticks);
   settle_choice(words, "--search", options.search);
   settle_choice(words, "--store", options.store);
-  if (options.command == Command::Space) options.reduce = Reduction::None;
-  settle_choice(words, "--reduce", options.reduce);
+  settle_reduction(words, options);
   options.threads = core_count();
   options.scratch_dir = words.value("--on-disk");
   settle_number(words, "--threads", 1, kMostThreads, options.threads);

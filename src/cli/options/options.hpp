@@ -15,6 +15,7 @@
 #include "check/check.hpp"
 #include "check/export/export_model.hpp"
 #include "check/findings/judgement.hpp"
+#include "check/space/graph.hpp"
 #include "check/space/space.hpp"
 #include "check/whatif/faults.hpp"
 #include "cli/options/interface.hpp"
@@ -213,6 +214,9 @@ struct Options {
   std::optional<LeafForm> leaf_form;  // leaves: --to; else by the name of -o
   std::optional<GraphFormat> graph;   // space: --export
   std::string graph_file;             // "" for standard output
+  // space: --reduce bisimulation and strong, and --observe.
+  std::optional<Equivalence> modulo;
+  std::optional<SeenAnswers> seen;
   StatisticsFormat statistics = StatisticsFormat::Table;
   When color = When::Auto;
   BatchOptions batch;

@@ -286,6 +286,7 @@ constexpr CommandSet kHasSettings = {
 constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space,
                                   Demo,  Init,  Command::Answer};
+constexpr CommandSet kChecks = {Check, Batch, Demo, Init, Command::Answer};
 constexpr CommandSet kCountsStates = {
     Check,           Batch, Space, Demo, Init, Conform,
     Command::Answer, Serve, Mcp,   Lsp,  Tests};
@@ -448,12 +449,29 @@ constexpr OptionRow kOptions[] = {
     {.name = "--reduce",
      .value = "REDUCTION",
      .choices = "none live full",
-     .fallback = "full; space: none",
+     .fallback = "full",
      .help = "none: every interleaving and every value; live: values that "
              "nothing reads any more count as one; full: independent steps "
              "are "
              "not interleaved either",
-     .commands = kSearches},
+     .commands = kChecks},
+    {.name = "--reduce",
+     .value = "REDUCTION",
+     .choices = "none live full bisimulation strong",
+     .fallback = "none",
+     .help = "live, full: as of a check; bisimulation: beside all states, how "
+             "many can be told apart by what --observe says; strong: by "
+             "every step",
+     .commands = {Space},
+     .example = "btcheck space TREE --reduce bisimulation"},
+    {.name = "--observe",
+     .value = "NODES",
+     .choices = "root leaves all",
+     .fallback = "all; of --export alone: every step",
+     .help = "whose answers are seen, beside time: what else happens is "
+             "hidden",
+     .commands = {Space},
+     .example = "btcheck space TREE --reduce bisimulation --observe root"},
     {.name = "--threads",
      .value = "NUMBER",
      .fallback = "one for each core",
@@ -595,7 +613,7 @@ constexpr OptionRow kOptions[] = {
      .value = "GRAPH",
      .names = ValueKind::Target,
      .choices = "aut dot",
-     .help = "the states and steps of a small space",
+     .help = "the states and steps of the space, or of its quotient",
      .commands = {Space},
      .first = {Space},
      .example = "btcheck space TREE --export aut"},

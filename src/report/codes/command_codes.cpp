@@ -70,10 +70,12 @@ constexpr CodeRow kCommandCodes[] = {
                  .command = "export tree.btf --to promela --prop rules.ltl"}},
     {.code = "BT0007",
      .summary = "a state space too large for a graph",
-     .description = "`space --export` writes every state and step, and stops "
-                    "where no other tool would read the result any more, or at "
-                    "a limit of the search.",
-     .help = "Measure it without --export, or draw a part of the tree.",
+     .description =
+         "`space --export dot` draws up to 2,000 states: more show nothing. "
+         "`--export aut` writes any number. Both stop at a limit of the "
+         "search, and then no file is there.",
+     .help = "Write it with --export aut, or draw what can be seen of it: "
+             "--reduce bisimulation.",
      .example = {.tree = R"((defsv x :max 100000)
 (BehaviorTree :name t :loop 1
   (Eval (:= x (mod (+ x 1) 100000)))))",

@@ -372,12 +372,35 @@ std::string json_lines(const Report& report) {
   return lines + json_end_line(report);
 }
 
+namespace {
+
+// Figures that are not known are null.
+OrderedJson quotient_json(const SpaceQuotient& quotient) {
+  const bool is_known = quotient.stopped == StopReason::None;
+  const auto figure = [&](std::uint64_t count) {
+    return is_known ? OrderedJson(count) : OrderedJson();
+  };
+  OrderedJson object;
+  object["equivalence"] = quotient.equivalence == Equivalence::Strong
+                              ? "strong"
+                              : "branching-with-divergence";
+  object["observe"] = seen_word(quotient.seen);
+  object["states"] = figure(quotient.graph.size());
+  object["transitions"] = figure(quotient.graph.arc_count());
+  object["labels"] =
+      figure(quotient.labels.empty() ? 0 : quotient.labels.size() - 1);
+  object["stopped"] = word(stop_word(quotient.stopped));
+  return object;
+}
+
+}  // namespace
+
 std::string space_json(const SpaceReport& report, const SpaceContext& context) {
   const SearchProgress& progress = report.result.progress;
   OrderedJson object;
   object["tree"] = context.tree;
   object["tick"] = tick_name(context.network.ticks);
-  object["reduce"] = reduction_word(context.options.reduce);
+  object["reduce"] = reduction_asked(context);
   object["threads"] = context.options.threads;
   object["store"] =
       context.options.store == StateSetKind::Exact ? "exact" : "compressed";
@@ -398,6 +421,9 @@ std::string space_json(const SpaceReport& report, const SpaceContext& context) {
   object["complete"] = report.result.is_complete;
   object["stopped"] = word(stop_word(report.result.stopped));
   object["disk_bytes"] = report.bytes_on_disk;
+  if (context.quotient != nullptr) {
+    object["quotient"] = quotient_json(*context.quotient);
+  }
   return dumped(object);
 }
 

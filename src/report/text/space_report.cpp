@@ -64,7 +64,43 @@ std::string part_name(const BehaviorTree& tree, const Contribution& part) {
                      line_of(tree, *part.node));
 }
 
+// Below the figures of the whole.
+std::string quotient_text(const SpaceQuotient& quotient,
+                          const SearchProgress& whole) {
+  constexpr std::array<std::string_view, 3> kSeen = {
+      "the root's answers", "the leaves' answers", "each node's answers"};
+  std::string text =
+      fmt::format("Modulo {}; seen: {}, time\n",
+                  quotient.equivalence == Equivalence::Strong
+                      ? "strong bisimilarity"
+                      : "branching bisimilarity with divergence",
+                  kSeen[static_cast<std::size_t>(quotient.seen)]);
+  if (quotient.stopped != StopReason::None) {
+    return text + fmt::format("UNDECIDED  not minimised, {}\n",
+                              stop_text(quotient.stopped, quotient.whole));
+  }
+  const LabelledGraph& graph = quotient.graph;
+  return text +
+         row("states", grouped(graph.size()),
+             fmt::format(" of {}", grouped(whole.states))) +
+         row("transitions", grouped(graph.arc_count()),
+             fmt::format(" of {}", grouped(whole.transitions))) +
+         row("labels seen", grouped(quotient.labels.size() - 1));
+}
+
 }  // namespace
+
+std::string_view seen_word(SeenAnswers seen) {
+  constexpr std::array<std::string_view, 3> kWords = {"root", "leaves", "all"};
+  return kWords[static_cast<std::size_t>(seen)];
+}
+
+std::string_view reduction_asked(const SpaceContext& context) {
+  if (context.modulo) {
+    return *context.modulo == Equivalence::Strong ? "strong" : "bisimulation";
+  }
+  return reduction_word(context.options.reduce);
+}
 
 std::string_view reduction_word(Reduction reduction) {
   constexpr std::array<std::string_view, 3> kWords = {"none", "live", "full"};
@@ -84,7 +120,7 @@ std::string space_text(const SpaceReport& report, const SpaceContext& context) {
   std::string text = fmt::format(
       "{}: {} automata; profile {}, tick {}, reduce {}\n", context.tree,
       context.network.automata.size(), profile_name(context.network.profile),
-      tick_name(context.network.ticks), reduction_word(context.options.reduce));
+      tick_name(context.network.ticks), reduction_asked(context));
   text += row("states", grouped(progress.states));
   text += row("markings", grouped(report.markings));
   text += row("transitions", grouped(progress.transitions));
@@ -108,6 +144,9 @@ std::string space_text(const SpaceReport& report, const SpaceContext& context) {
   if (!report.result.is_complete) {
     text += fmt::format("UNDECIDED  not all states, {}\n",
                         stop_text(report.result.stopped, progress));
+  }
+  if (context.quotient != nullptr) {
+    text += quotient_text(*context.quotient, progress);
   }
   return text;
 }

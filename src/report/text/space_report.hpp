@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "check/questions/contribution.hpp"
+#include "check/space/quotient.hpp"
 #include "check/space/space.hpp"
 #include "model/tree/tree.hpp"
 
@@ -20,13 +22,19 @@ struct SpaceContext {
   const Network& network;
   const SpaceOptions& options;
   double seconds = 0;
-  std::uint64_t peak_bytes = 0;  // of the process
+  std::uint64_t peak_bytes = 0;             // of the process
+  std::optional<Equivalence> modulo = {};   // of a quotient that was asked for
+  const SpaceQuotient* quotient = nullptr;  // null where the whole is not known
 };
 
 std::string space_text(const SpaceReport& report, const SpaceContext& context);
 
 // "none", "live", "full".
 std::string_view reduction_word(Reduction reduction);
+// That of --reduce: also "bisimulation" and "strong".
+std::string_view reduction_asked(const SpaceContext& context);
+// "root", "leaves", "all".
+std::string_view seen_word(SeenAnswers seen);
 // How many in a second, or bytes of each; nothing is ever divided by 0.
 double per(std::uint64_t count, double unit);
 double bytes_per_state(const SpaceReport& report);
