@@ -76,8 +76,8 @@ TEST_CASE("no run that tells two states apart is shorter than what is found") {
     CAPTURE(i);
     const LabelledGraph graph = random_graph(random, 7);
     const auto states = static_cast<std::uint32_t>(graph.size());
-    const std::uint32_t first = random() % states;
-    const std::uint32_t second = random() % states;
+    const auto first = static_cast<std::uint32_t>(random() % states);
+    const auto second = static_cast<std::uint32_t>(random() % states);
     const auto of_first = short_runs(graph, first);
     const auto of_second = short_runs(graph, second);
     std::set<Run> apart;
