@@ -71,8 +71,18 @@ bool ComponentTable::is_only_in(AutomatonId root, PartSide side,
   if (side == PartSide::Inside) {
     return users.front() >= first && users.back() <= index(root);
   }
+  const AutomatonId tree = root_of(root);
+  if (!is_below(AutomatonId{users.front()}, tree) ||
+      !is_below(AutomatonId{users.back()}, tree)) {
+    return false;
+  }
   const auto user = std::ranges::lower_bound(users, first);
   return user == users.end() || *user > index(root);
+}
+
+AutomatonId ComponentTable::root_of(AutomatonId node) const {
+  return *std::ranges::find_if(
+      roots_, [&](AutomatonId root) { return is_below(node, root); });
 }
 
 namespace {
@@ -113,8 +123,9 @@ bool ComponentTable::may_be_component(AutomatonId root) const {
 std::optional<std::vector<PartMember>> ComponentTable::members(AutomatonId root,
                                                                PartSide side) {
   const auto parent = protocol_.parent(root);
-  if (!protocol_.holds() || !parent) return std::nullopt;
-  const AutomatonId middle = side == PartSide::Inside ? root : *parent;
+  const bool is_outside = side == PartSide::Outside;
+  if (!protocol_.holds() || (is_outside && !parent)) return std::nullopt;
+  const AutomatonId middle = is_outside ? *parent : root;
   if (!may_be_component(middle)) return std::nullopt;
   std::vector<PartMember> all = {{middle, nullptr, PartSide::Inside}};
   const auto add = [&](AutomatonId id, PartSide of_it) {
@@ -122,15 +133,14 @@ std::optional<std::vector<PartMember>> ComponentTable::members(AutomatonId root,
     if (component != nullptr) all.push_back({id, component, of_it});
     return component != nullptr;
   };
-  if (side == PartSide::Outside) {
+  if (is_outside) {
     const bool is_root = !protocol_.parent(middle);
     if (!is_root && !add(middle, PartSide::Outside)) return std::nullopt;
-    if (is_root && roots_.size() > 1) return std::nullopt;
     // What is inside is let do what it may.
     if (of(root) == nullptr) return std::nullopt;
   }
   for (const AutomatonId child : children_[index(middle)]) {
-    if (child == root && side == PartSide::Outside) continue;
+    if (child == root && is_outside) continue;
     if (!add(child, PartSide::Inside)) return std::nullopt;
   }
   return all;

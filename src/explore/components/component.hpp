@@ -21,7 +21,8 @@ namespace btcheck {
 
 class Component;
 
-// Which part of a network: the subtree of an automaton, or what is outside.
+// Which part of a network: the subtree of an automaton, or what is outside of
+// it in its tree. The subtree of a root is the whole tree.
 enum class PartSide : std::uint8_t { Inside, Outside };
 
 // What a part is made of: automata of the network, and components.
@@ -46,11 +47,12 @@ class Component {
   Automaton automaton;
   Variable location;
   VariableId location_id{};
-  // Of a subtree: in which of its states between two calls it is.
+  // Of a subtree that is called: in which of its states between two calls it
+  // is.
   Variable memory;
   VariableId memory_id{};
-  // By the value of its memory, of an outside by that of its location: the one
-  // after a unit of time in which it does nothing.
+  // By the value of its memory, of what nobody calls by that of its location:
+  // the one after a unit of time in which it does nothing.
   std::vector<int> later;
   // No time passes while it is called.
   bool is_instant = true;
@@ -134,12 +136,13 @@ class ComponentTable {
   const std::vector<AutomatonId>& children(AutomatonId id) const {
     return children_[index(id)];
   }
-  // Null where the part cannot be one, or is too large to be. The subtree of a
-  // root and what is outside of it are none.
+  // Null where the part cannot be one, or is too large to be. Outside of a root
+  // is nothing.
   const Component* of(AutomatonId root, PartSide side = PartSide::Inside);
   // Whether only this part touches the variable; the calls and answers of the
   // subtree's root are not asked for.
   bool is_only_in(AutomatonId root, PartSide side, VariableId variable) const;
+  AutomatonId root_of(AutomatonId node) const;
   bool is_below(AutomatonId node, AutomatonId root) const {
     return index(node) >= first_inside_[index(root)] &&
            index(node) <= index(root);

@@ -71,6 +71,10 @@ Composition::Composition(ComponentTable& components, std::vector<bool> kept,
     for (const AutomatonId root : components.roots()) place_below(root, kept);
   } else {
     place_below(*lowest, kept);
+    const AutomatonId own = components.root_of(*lowest);
+    for (const AutomatonId root : components.roots()) {
+      if (root != own) place_below(root, kept);
+    }
   }
   for (std::uint32_t a = 0; a < count; ++a) {
     const Automaton& timer = whole.automata[a];
@@ -116,7 +120,8 @@ void Composition::hide(AutomatonId root, PartSide side) {
       whole.node_status[index(whole.automaton(root).node)];
   for (std::uint32_t v = 0; v < whole.variables.size(); ++v) {
     const VariableId id{v};
-    const bool is_seen = id == status || id == whole.automaton(root).gate;
+    const auto& gate = whole.automaton(root).gate;
+    const bool is_seen = gate && (id == status || id == gate);
     if (is_seen || !components_->is_only_in(root, side, id)) continue;
     Variable& variable = network_.variables[v];
     variable.min = variable.max = variable.initial;
@@ -149,9 +154,11 @@ bool Composition::place_outside_of(AutomatonId root) {
   const Component* component = components_->of(root, PartSide::Outside);
   if (component == nullptr) return false;
   const Network& whole = components_->network();
+  const AutomatonId tree = components_->root_of(root);
   for (std::uint32_t a = 0; a < whole.automata.size(); ++a) {
     const bool is_node = whole.automata[a].kind == AutomatonKind::Node;
-    if (is_node && !components_->is_below(AutomatonId{a}, root)) {
+    if (is_node && components_->is_below(AutomatonId{a}, tree) &&
+        !components_->is_below(AutomatonId{a}, root)) {
       leave_out(AutomatonId{a});
     }
   }
@@ -188,7 +195,9 @@ void Composition::place_below(AutomatonId root, const std::vector<bool>& kept) {
   network_.automata[index(root)] = component->automaton;
   network_.variables[index(component->location_id)] = component->location;
   network_.variables[index(component->memory_id)] = component->memory;
-  add_clock(*component, component->memory_id);
+  const bool is_called = component->automaton.gate.has_value();
+  add_clock(*component,
+            is_called ? component->memory_id : component->location_id);
 }
 
 bool Composition::take(const Valuation& state, std::uint32_t edge,

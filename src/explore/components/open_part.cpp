@@ -37,9 +37,10 @@ OpenPart::OpenPart(const ComponentTable& all, AutomatonId root, PartSide side,
       members_(std::move(members)),
       automaton_(all.network_.automaton(members_[0].automaton)),
       timers_(all.timers_[index(members_[0].automaton)]),
+      is_called_(side == PartSide::Inside && all.protocol_.parent(root)),
       status_(
           all.network_.node_status[index(all.network_.automaton(root).node)]),
-      gate_(*all.network_.automaton(root).gate),
+      gate_(all.network_.automaton(root).gate),
       place_of_(all.variable_count() + all.network_.automata.size(), -1) {
   collect_own();
   collect_changes();
@@ -70,7 +71,7 @@ void OpenPart::collect_own() {
   }
   for (std::uint32_t v = 0; v < network().variables.size(); ++v) {
     const VariableId id{v};
-    if (id == status_ || id == gate_) continue;
+    if (gate_ && (id == status_ || id == gate_)) continue;
     if (!all_.is_only_in(root_, side_, id)) continue;
     const bool is_hidden =
         std::ranges::any_of(members_, [&](const PartMember& member) {
@@ -276,7 +277,7 @@ bool OpenPart::add_arc(std::uint32_t state, Component::Member which,
 
 bool OpenPart::is_at_rest(const Values& values) const {
   const std::size_t location = *own(automaton_.location);
-  return side_ == PartSide::Inside && values[location] == ranges_[location].min;
+  return is_called_ && values[location] == ranges_[location].min;
 }
 
 // Components move on by their own tables; timers that have counted so far are
@@ -355,7 +356,7 @@ bool OpenPart::explore() {
   found(*first, {range.initial, false});
   const bool is_timed = network().ticks != TickSemantics::None;
   const bool waits_instantly =
-      is_inside || all_.known(root_, PartSide::Inside).is_instant;
+      !is_inside && all_.known(root_, PartSide::Inside).is_instant;
   while (!open.empty()) {
     const auto [state, call] = open.front();
     open.pop_front();
@@ -403,15 +404,14 @@ bool OpenPart::explore() {
     }
     if (!is_timed) continue;
     // In a subtree that is called, time may pass where it changes nothing.
-    const bool waits = is_inside
-                           ? !rests && !is_urgent
-                           : !is_urgent && !(call.is_called && waits_instantly);
+    const bool waits =
+        !rests && !is_urgent && !(call.is_called && waits_instantly);
     if (!rests && !waits) continue;
     auto values = later(states_[state].values);
     if (!values) return false;
     const auto after_time = state_number(std::move(*values));
     if (!after_time) return false;
-    if (is_inside && !rests) {
+    if (is_called_ && !rests) {
       if (*after_time != state) return false;
       is_instant_ = false;
       continue;
@@ -536,11 +536,11 @@ Minimal minimal(const LabelledGraph& graph, std::uint32_t time) {
 }  // namespace
 
 std::optional<Component> OpenPart::drawn() {
-  const bool is_inside = side_ == PartSide::Inside;
   Component made;
   made.is_instant = is_instant_;
   made.memory_id = all_.memory_of(root_);
-  made.location_id = is_inside ? automaton_.location : all_.outside_of(root_);
+  made.location_id =
+      side_ == PartSide::Inside ? automaton_.location : all_.outside_of(root_);
   Minimal small = minimal(graph(), kTime);
   const auto count = static_cast<std::uint32_t>(small.graph.size());
   std::vector<bool> is_rest(count, false);
@@ -553,7 +553,7 @@ std::optional<Component> OpenPart::drawn() {
   automaton.name = automaton_.name;
   automaton.node = automaton_.node;
   automaton.location = made.location_id;
-  if (is_inside) {
+  if (is_called_) {
     automaton.gate = gate_;
     automaton.locations.push_back({"start_", LocationRole::Start, {}});
   }
@@ -578,9 +578,9 @@ std::optional<Component> OpenPart::drawn() {
   made.memory = {VariableRole::Local, "memory", 0, std::max(0, memories - 1),
                  begin.memory,        {},       {}};
   const auto in_time = [&](const Component::Place& place) {
-    return is_inside ? place.memory : place.location;
+    return is_called_ ? place.memory : place.location;
   };
-  made.later.resize(is_inside ? static_cast<std::size_t>(memories) : count);
+  made.later.resize(is_called_ ? static_cast<std::size_t>(memories) : count);
   for (std::size_t i = 0; i < made.later.size(); ++i) {
     made.later[i] = static_cast<int>(i);
   }
@@ -604,7 +604,7 @@ std::optional<Component> OpenPart::drawn() {
         edge.is_like_time = label.is_like_time;
       }
       if (is_rest[p]) {
-        Expression here = differs(gate_, 0);
+        Expression here = differs(*gate_, 0);
         if (memories > 1) {
           here = both(std::move(here), equals(made.memory_id, from.memory));
         }
@@ -623,7 +623,7 @@ std::optional<Component> OpenPart::drawn() {
   // Else time writes it as well.
   const bool is_timeless = std::ranges::all_of(
       made.later, [m = 0](int to) mutable { return to == m++; });
-  if (is_inside && is_timeless) automaton.locals = {made.memory_id};
+  if (is_called_ && is_timeless) automaton.locals = {made.memory_id};
   made.members_ = members_;
   made.own_ = own_;
   made.place_of_ = std::move(small.state_of);

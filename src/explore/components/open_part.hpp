@@ -89,8 +89,9 @@ class OpenPart {
   const std::vector<PartMember> members_;
   const Automaton& automaton_;  // of the member that is no component
   const std::vector<AutomatonId>& timers_;  // its own
+  const bool is_called_;                    // by a node that stands outside
   const VariableId status_;
-  const VariableId gate_;
+  const std::optional<VariableId> gate_;
   std::vector<VariableId> own_;
   std::vector<int> place_of_;     // by VariableId: in own_, or -1
   std::vector<Variable> ranges_;  // of own_
