@@ -26,7 +26,7 @@
 namespace btcheck::reference::diff_cross_check_test {
 namespace {
 
-constexpr std::size_t kMostStates = 500;
+constexpr std::size_t kMostStates = 300;
 constexpr std::array kProfiles = {Profile::Btcpp38, Profile::Btcpp4,
                                   Profile::Nav2Humble, Profile::Nav2Jazzy,
                                   Profile::Nav2Main};

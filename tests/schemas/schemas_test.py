@@ -218,7 +218,8 @@ def look_at_pairs():
     """Trees that are equivalent, and that differ in each way."""
     examples = sources / "examples/diff"
     before = examples / "before.xml"
-    for other, words in (("tidied.xml", ()), ("after.xml", ("-e", "never Return.ticked")),
+    rule = "whenever GoTo.running then BatteryOk.ticked within 1 tick"
+    for other, words in (("tidied.xml", ()), ("after.xml", ("-e", rule)),
                          ("after.xml", ("--max-states", 3)),
                          ("tidied.xml", ("--observe", "Look", "--caller", "once"))):
         written("diff", btcheck(examples, "diff", before, other, "-q", *words,
