@@ -144,6 +144,10 @@ TEST_CASE("the page has both trees, each pair in one colour") {
   CHECK(count_of(page, "data-pair=\"0\"") == 2);
   CHECK(count_of(page, "<iframe") == 2);
   CHECK(!has(page, "{{"));
+  // Roots are the same, whatever they are called.
+  const Diff renamed = compared("(BehaviorTree :name one (Action :ID a))\n",
+                                "(BehaviorTree :name other (Action :ID a))\n");
+  CHECK(!has(diff_page(report_of(renamed)), "only here"));
 }
 
 TEST_CASE("verdicts and findings that are otherwise are told") {

@@ -43,6 +43,7 @@ class PageOfTwo {
     const BehaviorTree& one = diff_.sides[0].tree;
     const BehaviorTree& other = diff_.sides[1].tree;
     pairs_ = paired(one, all_nodes(one), other, all_nodes(other));
+    pair_roots(one, other);
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       if (!pairs_[i].one || !pairs_[i].other) continue;
       pair_of_[0][*pairs_[i].one] = i;
@@ -72,6 +73,22 @@ class PageOfTwo {
   }
 
  private:
+  // Whatever they are called: in their order, as they are compared.
+  void pair_roots(const BehaviorTree& one, const BehaviorTree& other) {
+    const auto is_root = [](const BehaviorTree& tree,
+                            const std::optional<NodeId>& node) {
+      return node && tree.node(*node).is_root();
+    };
+    std::erase_if(pairs_, [&](const NodePair& pair) {
+      return is_root(one, pair.one) || is_root(other, pair.other);
+    });
+    for (std::size_t i = 0; i < std::min(one.roots.size(), other.roots.size());
+         ++i) {
+      pairs_.insert(pairs_.begin() + static_cast<std::ptrdiff_t>(i),
+                    {one.roots[i], other.roots[i]});
+    }
+  }
+
   static std::string section(std::string_view title, const std::string& body) {
     return fmt::format("<section><h2>{}</h2>\n{}</section>\n", as_html(title),
                        body);
