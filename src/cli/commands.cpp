@@ -247,6 +247,7 @@ constexpr auto kRuns = std::to_array<RunOf>({
     {Command::Mcp, run_mcp},           {Command::Lsp, run_lsp},
     {Command::Fmt, run_fmt},           {Command::Watch, run_watch},
     {Command::WhatIf, run_whatif},     {Command::Tests, run_tests},
+    {Command::Diff, run_diff},
 });
 static_assert(is_indexed(kRuns, &RunOf::command));
 

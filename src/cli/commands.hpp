@@ -30,5 +30,6 @@ ExitCode run_monitor(const Options& options);
 ExitCode run_fmt(const Options& options);
 ExitCode run_whatif(const Options& options);
 ExitCode run_tests(const Options& options);
+ExitCode run_diff(const Options& options);
 
 }  // namespace btcheck

@@ -356,8 +356,8 @@ TEST_CASE("a refusal says what was meant, or where an option belongs") {
        "--stats belongs to `btcheck space`",
        "btcheck space TREE --stats json"},
       {{"simulate", "t.btf", "--prop", "p.ltl"},
-       "--prop belongs to check, lint, export, trace, run, monitor, watch and "
-       "whatif",
+       "--prop belongs to check, lint, export, trace, run, monitor, watch, "
+       "whatif and diff",
        "btcheck TREE --prop RULES.ltl"},
       {{"watch"}, "no robot", "btcheck watch groot2://robot --prop RULES.ltl"},
       {{"watch", "groot2://r", "--inject", "a fails"},
@@ -396,6 +396,25 @@ TEST_CASE("a refusal says what was meant, or where an option belongs") {
        "--faults takes fails, fails-once, fails-for-ever, says-yes, "
        "never-ends, late, "
        "inverted, flips-once, halted, writes-nothing, writes-other or throws"},
+      {{"diff"}, "no trees", "btcheck diff OLD.xml NEW.xml"},
+      {{"diff", "a.xml"},
+       "diff compares two trees, not 1",
+       "btcheck diff OLD.xml NEW.xml"},
+      {{"diff", "a.xml", "b.xml", "c.xml"},
+       "diff compares two trees, not 3",
+       "btcheck diff OLD.xml NEW.xml"},
+      {{"diff", "--git", "main", "a.xml", "b.xml"},
+       "--git compares one tree with what it was",
+       "btcheck diff --git main TREE.xml"},
+      {{"diff", "--git=-x", "a.xml"},
+       "--git -x: no revision",
+       "btcheck diff --git main TREE.xml"},
+      {{"diff", "a.xml", "b.xml", "--caller", "twice"},
+       "diff --caller twice: no such caller",
+       "--caller takes any or once"},
+      {{"diff", "a.xml", "b.xml", "--format", "csv"},
+       "diff --format csv: no such format",
+       "write text, json, markdown or html, or FORMAT=FILE"},
       {{"watch", "-"},
        "watch does not read standard input",
        "name a file: btcheck watch groot2://robot --prop RULES.ltl"},
@@ -555,6 +574,28 @@ TEST_CASE("what breaks is asked for by kinds, and told in several ways") {
   REQUIRE(other.faults.outputs.size() == 1);
   CHECK(other.faults.outputs[0].format == FaultFormat::Json);
   CHECK(options_of({"whatif", "t.xml"}).faults.outputs.size() == 1);
+}
+
+TEST_CASE("which trees are compared, and as whom") {
+  const Options plain = options_of({"diff", "a.xml", "b.xml"});
+  CHECK(plain.command == Command::Diff);
+  CHECK(plain.inputs == std::vector<std::string>{"a.xml", "b.xml"});
+  CHECK(plain.diff.observe.empty());
+  CHECK(plain.diff.caller == Caller::Any);
+  CHECK(plain.diff.revision.empty());
+  REQUIRE(plain.diff.outputs.size() == 1);
+  CHECK(plain.diff.outputs[0].format == DiffFormat::Text);
+  const Options options =
+      options_of({"diff", "--git", "HEAD~1", "a.xml", "--observe", "root",
+                  "--observe", "Dock", "--caller", "once", "--format",
+                  "html=d.html", "--format", "markdown"});
+  CHECK(options.diff.revision == "HEAD~1");
+  CHECK(options.diff.observe == std::vector<std::string>{"root", "Dock"});
+  CHECK(options.diff.caller == Caller::Once);
+  REQUIRE(options.diff.outputs.size() == 2);
+  CHECK(options.diff.outputs[0].format == DiffFormat::Html);
+  CHECK(options.diff.outputs[0].file == "d.html");
+  CHECK(options.diff.outputs[1].format == DiffFormat::Markdown);
 }
 
 TEST_CASE("a watch refuses by name what ends, or is kept once") {

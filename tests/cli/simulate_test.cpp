@@ -398,7 +398,7 @@ TEST_CASE("what makes no run is refused") {
         "error[BT0001]: a run is either random or scripted");
   CHECK(refusal({"simulate", "t.btf", "--prop", "p.ltl"}) ==
         "error[BT0001]: --prop belongs to check, lint, export, trace, run, "
-        "monitor, watch and whatif");
+        "monitor, watch, whatif and diff");
   CHECK(refusal({"t.btf", "--seed", "1"}) ==
         "error[BT0001]: --seed belongs to simulate and run");
   CHECK(refusal({"simulate", "t.btf", "--seed", "-1"}) ==

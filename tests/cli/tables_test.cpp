@@ -80,6 +80,9 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
       line.emplace_back("--from=robot.btlog@1");
     }
   }
+  if (command.command == Command::Diff && option.name != "--git") {
+    line.emplace_back("other.xml");
+  }
   if (command.command == Command::Watch) {
     line.at(2) = "groot2://robot";
     const bool injects = option.name == "--inject" ||

@@ -107,10 +107,23 @@ std::string editor_session(const fs::path& folder, const std::string& tree,
   return all;
 }
 
+std::string replaced(std::string_view text, std::string_view what,
+                     std::string_view with) {
+  std::string result(text);
+  for (auto at = result.find(what); at != result.npos;
+       at = result.find(what, at + with.size())) {
+    result.replace(at, what.size(), with);
+  }
+  return result;
+}
+
 // A folder with a tree and all that options name.
 void fill(const fs::path& folder, const Language& language) {
   fs::create_directory(folder / "trees");
   write(folder / "trees" / language.tree, language.text);
+  fs::create_directory(folder / "changed");
+  write(folder / "changed" / language.tree,
+        replaced(language.text, "Sequence", "Fallback"));
   write(folder / "trees/t.ltl",
         "tree \"" + language.tree + "\"\n" + std::string(kRules));
   write(folder / "more.ltl", "property more: [] tick.ends => <> root.ended\n");
@@ -218,6 +231,9 @@ const std::map<std::string_view, std::string> kValues = {
     {"--only", "--only act"},
     {"--late", "--late 1"},
     {"--others", "--others contract"},
+    {"--observe", "--observe root"},
+    {"--caller", "--caller once"},
+    {"--git", "--git HEAD"},
     {"--color", "--color always"},
     {"-q", "-q"},
     {"-v", "-v"},
@@ -268,6 +284,7 @@ constexpr Without kWithout[] = {
     {"fmt", "--verify", "", "the networks are equal"},
     {"whatif", "--max-states", "t.xml",
      "no fault has as many as are searched between two looks at the limit"},
+    {"diff", "--loop", "t.xml", "both differ before they end"},
     {"fmt", "--timeout", "", "it is done before a limit is looked at"},
 };
 
@@ -327,6 +344,9 @@ std::vector<std::string> lines_of(const CommandRow& row,
               line + " --prop trees/t.ltl " + "<events.jsonl"};
     case Command::Tests:
       return {line + " -o suites", line + " -o . --to jsonl"};
+    case Command::Diff:
+      return {line + " changed/" + language.tree,
+              line + " changed/" + language.tree + " --caller once"};
     case Command::WhatIf:
       return {line, line + " --format json"};
     case Command::Conform:

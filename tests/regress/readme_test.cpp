@@ -63,4 +63,8 @@ TEST_CASE("the page on faults shows what the program prints") {
   CHECK(look_at(kRoot + "/docs/whatif.md") >= 2);
 }
 
+TEST_CASE("the page on two trees shows what the program prints") {
+  CHECK(look_at(kRoot + "/docs/diff.md") >= 2);
+}
+
 }  // namespace btcheck::readme_test

@@ -216,6 +216,23 @@ def look_at_faults(out):
         written("run", file.read_text(), file.name)
 
 
+def look_at_pairs():
+    """Trees that are equivalent, and that differ in each way."""
+    examples = sources / "examples/diff"
+    before = examples / "before.xml"
+    rule = "whenever GoTo.running then BatteryOk.ticked within 1 tick"
+    for other, words in (("tidied.xml", ()), ("after.xml", ("-e", rule)),
+                         ("after.xml", ("--max-states", 3)),
+                         ("tidied.xml", ("--observe", "Look", "--caller", "once"))):
+        written("diff", btcheck(examples, "diff", before, other, "-q", *words,
+                                "--format", "json"), f"diff {other}")
+    for one, other, seen_nodes in (("told_before.xml", "told_after.xml", ("leaves",)),
+                                   ("door_before.btf", "door_after.btf", "xyz")):
+        words = [word for node in seen_nodes for word in ("--observe", node)]
+        written("diff", btcheck(regress / "diff_trees", "diff", one, other, "-q", *words,
+                                "--format", "json"), f"diff {one}")
+
+
 def members(schema):
     """The names that a schema has for members, wherever."""
     if isinstance(schema, list):
@@ -292,6 +309,7 @@ with tempfile.TemporaryDirectory() as name:
     look_at_library()
     look_at_batches(out)
     look_at_faults(out)
+    look_at_pairs()
     trees = sorted(file for form in ("btf", "xml") for file in regress.glob(f"*/tree.{form}"))
     third = trees[::3]
     for tree in third:

@@ -9,11 +9,15 @@
 #include <utility>
 
 #include "explore/state/spent.hpp"
+#include "model/sampling.hpp"
 #include "model/tree/leaf_fault.hpp"
 #include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace {
+
+// They are numbered in so many bits.
+constexpr std::uint32_t kMostSequences = 0x1fffffff;
 
 // What is told of a state: the ends of roots, faults, and who runs there.
 Observed told_of(const BehaviorTree& tree, const Network& network,
@@ -63,16 +67,25 @@ std::optional<NodeEvent> event_of(const Network& network, std::uint32_t edge) {
   return what ? std::optional(NodeEvent(owner.node, *what)) : std::nullopt;
 }
 
+Result<Network> lower_regions(const BehaviorTree& tree,
+                              const SourceText& source, TickSemantics ticks) {
+  const Lowering how = lowering(tree, ticks);
+  Network network = lower_to_bind(tree, how);
+  auto found = sample_regions(tree, source, {}, how, network);
+  if (has_error(found)) return {std::nullopt, std::move(found)};
+  return {std::move(network), {}};
+}
+
 std::optional<VariableId> fault_phase(const Network& network, NodeId leaf) {
   return local_of(network, leaf, LocalRole::Fault);
 }
 
 AnswerGraph::AnswerGraph(const BehaviorTree& tree, const Network& network,
-                         const Limits& limits)
+                         const Limits& limits, Reduction reduction)
     : tree_(tree),
       system_(network),
       searched_(system_, told_of(tree, network, false),
-                told_of(tree, network, true), Reduction::Full),
+                told_of(tree, network, true), reduction),
       store_(searched_.system().word_count()) {
   event_of_edge_.resize(network.edge_count());
   for (std::uint32_t e = 0; e < event_of_edge_.size(); ++e) {
@@ -129,29 +142,41 @@ void AnswerGraph::expand(std::uint32_t state) {
   store_.load(StateId{state}, words);
   first_.push_back(static_cast<std::uint32_t>(arcs_.size()));
   std::vector<NodeEvent> happened;
-  visit(words, happened, [&](StateView target, Step) {
-    const auto [id, is_new] = store_.insert(target);
-    if (is_new) {
-      note(target);
-      reached_by_.push_back(static_cast<std::uint32_t>(arcs_.size()));
-    }
-    // An idle step is none.
-    if (index(id) == state && happened.empty()) return;
-    arcs_.push_back({index(id), sequence_of(happened)});
-  });
+  visit(words, happened,
+        [&](StateView target, Step step, std::size_t steps, bool begins) {
+          const auto [id, is_new] = store_.insert(target);
+          if (is_new) {
+            note(target);
+            reached_by_.push_back(static_cast<std::uint32_t>(arcs_.size()));
+          }
+          // An idle step is none.
+          if (index(id) == state && happened.empty()) return;
+          Arc arc;
+          arc.target = index(id);
+          arc.events = sequence_of(happened) & kMostSequences;
+          arc.is_progress = step.progress ? 1 : 0;
+          arc.is_single = steps == 1 ? 1 : 0;
+          arc.begins_with_event = begins ? 1 : 0;
+          arcs_.push_back(arc);
+        });
 }
 
 template <class Visit>
 void AnswerGraph::visit(StateView state, std::vector<NodeEvent>& happened,
                         Visit found) const {
   const CompiledNetwork& network = searched_.system().network();
+  std::size_t steps = 0;
+  bool begins = false;
   searched_.system().successors(
       state,
       [&](StateView target, Step step) {
-        found(target, step);
+        found(target, step, steps, begins);
         happened.clear();
+        steps = 0;
+        begins = false;
       },
       [&](StateView before, Step step, StateView after) {
+        ++steps;
         if (step.edge == kTimeStep) return;
         for (const auto& [leaf, phase] : faults_) {
           constexpr auto kNotYet = static_cast<int>(FaultPhase::NotYet);
@@ -163,6 +188,7 @@ void AnswerGraph::visit(StateView state, std::vector<NodeEvent>& happened,
         if (const auto& event = event_of_edge_[step.edge]) {
           happened.push_back(*event);
         }
+        if (steps == 1) begins = !happened.empty();
       });
 }
 
@@ -273,7 +299,7 @@ std::vector<Step> AnswerGraph::steps_along(std::span<const std::uint32_t> path,
     // Several may lead there that differ in what happens.
     std::optional<Step> step;
     std::vector<NodeEvent> happened;
-    visit(from, happened, [&](StateView target, Step each) {
+    visit(from, happened, [&](StateView target, Step each, auto...) {
       if (step || !std::ranges::equal(target, to)) return;
       if (std::ranges::equal(happened, events(taken))) step = each;
     });

@@ -20,6 +20,8 @@
 #include "explore/store/state_store.hpp"
 #include "model/automata/network.hpp"
 #include "model/tree/tree.hpp"
+#include "text/diagnostic.hpp"
+#include "text/input_file.hpp"
 
 namespace btcheck {
 
@@ -72,12 +74,18 @@ class AnswerGraph {
  public:
   struct Arc {
     std::uint32_t target = 0;
-    std::uint32_t events = 0;  // for `events`
+    std::uint32_t events : 29 = 0;  // for `events`
+    // Something else than a free variable moves.
+    std::uint32_t is_progress : 1 = 1;
+    // It stands for one step of the network; or its first event, if any, is
+    // that of the first of its steps.
+    std::uint32_t is_single : 1 = 1;
+    std::uint32_t begins_with_event : 1 = 1;
   };
 
   // Searches at once. Tree and network must outlive it.
   AnswerGraph(const BehaviorTree& tree, const Network& network,
-              const Limits& limits);
+              const Limits& limits, Reduction reduction = Reduction::Full);
 
   StopReason stopped() const { return stopped_; }
   const SearchProgress& progress() const { return progress_; }
@@ -112,7 +120,8 @@ class AnswerGraph {
   void expand(std::uint32_t state);
   std::uint32_t source_of(std::uint32_t arc) const;
   void note(StateView state);
-  // Calls found(target, step) for each step, with what happens in it.
+  // Calls found(target, step, single steps, whether the first of them has an
+  // event) for each step, with what happens in it.
   template <class Visit>
   void visit(StateView state, std::vector<NodeEvent>& happened,
              Visit found) const;
@@ -145,6 +154,11 @@ class AnswerGraph {
   StopReason stopped_ = StopReason::None;
   SearchProgress progress_;
 };
+
+// The network of a tree to be searched so: of larger numbers with a value of
+// each region that the tree tells apart. An error at each SetSV with too many.
+Result<Network> lower_regions(const BehaviorTree& tree,
+                              const SourceText& source, TickSemantics ticks);
 
 // Where a fault of the leaf stands; nothing where it has none.
 std::optional<VariableId> fault_phase(const Network& network, NodeId leaf);

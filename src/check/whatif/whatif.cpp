@@ -20,7 +20,6 @@
 #include "check/whatif/effects.hpp"
 #include "explore/state/spent.hpp"
 #include "ltl/rules/compared.hpp"
-#include "model/sampling.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree_file.hpp"
 
@@ -81,16 +80,6 @@ int tick_of(const BehaviorTree& tree, const std::vector<NodeEvent>& run,
   return ticks;
 }
 
-// The network of a tree that has faults of this one.
-Result<Network> lowered(const BehaviorTree& tree, const WhatIfInput& input,
-                        TickSemantics ticks) {
-  const Lowering how = lowering(tree, ticks);
-  Network network = lower_to_bind(tree, how);
-  auto found = sample_regions(tree, input.source, {}, how, network);
-  if (has_error(found)) return {std::nullopt, std::move(found)};
-  return {std::move(network), {}};
-}
-
 class Searcher {
  public:
   Searcher(const WhatIfInput& input, const WhatIfOptions& options,
@@ -109,7 +98,7 @@ class Searcher {
   std::vector<Diagnostic> look_at_healthy() {
     const Stage stage("the tree was searched without faults");
     healthy_tree_ = with_faults(tree_, {}, options_.choices.others);
-    auto network = lowered(healthy_tree_, input_, options_.ticks);
+    auto network = lower_regions(healthy_tree_, input_.source, options_.ticks);
     if (!network.value) return std::move(network.diagnostics);
     healthy_network_ = std::move(*network.value);
     healthy_.emplace(healthy_tree_, healthy_network_, limits_);
@@ -140,7 +129,7 @@ class Searcher {
     row.faults = std::move(faults);
     const BehaviorTree tree =
         with_faults(tree_, row.faults, options_.choices.others);
-    const auto network = lowered(tree, input_, options_.ticks);
+    const auto network = lower_regions(tree, input_.source, options_.ticks);
     if (!network.value) return row;
     const AnswerGraph graph(tree, *network.value, limits_);
     monitor_.ended(graph.progress());
@@ -448,7 +437,7 @@ RowNetwork network_of(const WhatIfInput& input, const WhatIf& result,
     if (bound.value) made.network = std::move(*bound.value->network);
     return made;
   }
-  auto network = lowered(made.tree, input, ticks);
+  auto network = lower_regions(made.tree, input.source, ticks);
   if (network.value) made.network = std::move(*network.value);
   return made;
 }

@@ -219,6 +219,14 @@ void settle_reports(const OptionWords& words, Options& options) {
     }
     return;
   }
+  if (options.command == Command::Diff) {
+    options.diff.outputs.clear();
+    for (const Target& target : targets_of(words, Command::Diff)) {
+      options.diff.outputs.push_back(
+          {static_cast<DiffFormat>(target.choice), target.file});
+    }
+    return;
+  }
   options.reports.clear();
   for (const Target& target : targets_of(words, Command::Check)) {
     options.reports.push_back(
@@ -713,6 +721,27 @@ void settle_faults(const OptionWords& words, Options& options) {
   }
 }
 
+// Which trees are compared, and as whom.
+void settle_diff(const OptionWords& words, Options& options) {
+  if (options.command != Command::Diff) return;
+  DiffPlan& plan = options.diff;
+  plan.observe = words.all("--observe");
+  settle_choice(words, "--caller", plan.caller);
+  plan.revision = words.value("--git");
+  if (words.has("--git") &&
+      (plan.revision.empty() || plan.revision[0] == '-')) {
+    refuse(fmt::format("--git {}: no revision", plan.revision),
+           "btcheck diff --git main TREE.xml");
+  }
+  const std::size_t wanted = words.has("--git") ? 1 : 2;
+  if (words.inputs.empty() || words.inputs.size() == wanted) return;
+  refuse(wanted == 1 ? "--git compares one tree with what it was"
+                     : fmt::format("diff compares two trees, not {}",
+                                   words.inputs.size()),
+         wanted == 1 ? "btcheck diff --git main TREE.xml"
+                     : "btcheck diff OLD.xml NEW.xml");
+}
+
 // What a command cannot do without.
 void refuse_missing(const OptionWords& words) {
   const CommandRow& command = row_of(words.command);
@@ -775,6 +804,7 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_watch(words, options);
   settle_robots(words, options);
   settle_faults(words, options);
+  settle_diff(words, options);
   settle_roots(words, options);
   refuse_missing(words);
   return options;

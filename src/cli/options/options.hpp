@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "check/check.hpp"
+#include "check/diff/diff.hpp"
 #include "check/export/export_model.hpp"
 #include "check/findings/judgement.hpp"
 #include "check/space/graph.hpp"
@@ -50,7 +51,8 @@ enum class Command : std::uint8_t {
   Fmt,
   Watch,
   WhatIf,
-  Tests
+  Tests,
+  Diff
 };
 
 // The tree that `btcheck -` reads.
@@ -144,6 +146,19 @@ struct FaultPlan {
   std::vector<FaultTarget> outputs = {FaultTarget{}};  // --format
 };
 
+// What `diff` tells; in the order of its --format in tables.cpp.
+enum class DiffFormat : std::uint8_t { Text, Json, Markdown, Html };
+struct DiffTarget {
+  DiffFormat format = DiffFormat::Text;
+  std::string file = {};  // "" for standard output
+};
+struct DiffPlan {
+  std::vector<std::string> observe;                  // --observe
+  Caller caller = Caller::Any;                       // --caller
+  std::string revision;                              // --git; "" for none
+  std::vector<DiffTarget> outputs = {DiffTarget{}};  // --format
+};
+
 // How `space` tells its figures.
 enum class StatisticsFormat : std::uint8_t { Table, Json };
 
@@ -211,6 +226,7 @@ struct Options {
   RobotPlan robots;
   FaultPlan faults;
   TestPlan tests;
+  DiffPlan diff;
   std::optional<LeafForm> leaf_form;  // leaves: --to; else by the name of -o
   std::optional<GraphFormat> graph;   // space: --export
   std::string graph_file;             // "" for standard output

@@ -165,6 +165,22 @@ constexpr CommandRow kCommands[] = {
          "mission does then, who notices, how it gets on, and what is never "
          "noticed. All other leaves do what they are for. --order 2 looks at "
          "pairs of faults as well."},
+    {.command = Command::Diff,
+     .word = "diff",
+     .argument = ArgumentKind::Trees,
+     .shown = "TREE TREE",
+     .missing = "no trees",
+     .example = "btcheck diff OLD.xml NEW.xml",
+     .summary = "whether two trees do the same, else a run that one has alone",
+     .description =
+         "Compares all runs of two trees, whoever ticks them and whatever "
+         "their leaves answer: either they are equivalent, or a shortest run "
+         "is "
+         "shown that one has and the other has not, and what else a check "
+         "finds "
+         "in one of them only. Leaves are the same by name and place. Two "
+         "folders are compared tree by tree; with --git, one tree or folder "
+         "with what it was."},
     {.command = Explain,
      .word = "explain",
      .argument = ArgumentKind::CodeOrRun,
@@ -269,36 +285,39 @@ constexpr CommandRow kCommands[] = {
      .description = "Prints the man page, as troff.",
      .is_hidden = true}};
 
-constexpr CommandSet kReadsTrees = {Check,           Batch,    Lint,   Space,
-                                    Export,          Simulate, Init,   Conform,
-                                    Command::Answer, WhatIf,   Explain};
-constexpr CommandSet kReadsModels = {
-    Check,  Batch,           Lint,   Space, Export, Simulate, Init, Conform,
-    Leaves, Command::Answer, WhatIf, Tests, Explain};
+constexpr CommandSet kReadsTrees = {
+    Check,   Batch,           Lint,   Space,   Export,       Simulate, Init,
+    Conform, Command::Answer, WhatIf, Explain, Command::Diff};
+constexpr CommandSet kReadsModels = {Check,   Batch,           Lint,   Space,
+                                     Export,  Simulate,        Init,   Conform,
+                                     Leaves,  Command::Answer, WhatIf, Tests,
+                                     Explain, Command::Diff};
 // An XML tree has an executor of its own.
-constexpr CommandSet kReadsBtf = {Check,  Batch,    Lint,  Space,
-                                  Export, Simulate, Init,  Conform,
-                                  Run,    WhatIf,   Tests, Explain};
+constexpr CommandSet kReadsBtf = {
+    Check,   Batch, Lint,   Space, Export,  Simulate,     Init,
+    Conform, Run,   WhatIf, Tests, Explain, Command::Diff};
 constexpr CommandSet kHasSettings = {
-    Check, Batch,   Lint, Space,  Export,          Simulate,
-    Init,  Conform, Run,  Leaves, Command::Answer, Serve,
-    Mcp,   Lsp,     Fmt,  WhatIf, Tests,           Explain};
+    Check,   Batch,  Lint,   Space,           Export,       Simulate, Init,
+    Conform, Run,    Leaves, Command::Answer, Serve,        Mcp,      Lsp,
+    Fmt,     WhatIf, Tests,  Explain,         Command::Diff};
 constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space,
                                   Demo,  Init,  Command::Answer};
 constexpr CommandSet kChecks = {Check, Batch, Demo, Init, Command::Answer};
 constexpr CommandSet kCountsStates = {
-    Check,           Batch, Space, Demo, Init, Conform,
-    Command::Answer, Serve, Mcp,   Lsp,  Tests};
+    Check,           Batch, Space, Demo, Init,  Conform,
+    Command::Answer, Serve, Mcp,   Lsp,  Tests, Command::Diff};
 constexpr CommandSet kLimited = {
-    Check,    Batch, Lint, Space,   Export, Trace,           Demo,
-    Simulate, Init,  Run,  Conform, Leaves, Command::Answer, Serve,
-    Mcp,      Lsp,   Fmt,  Watch,   WhatIf, Tests,           Explain};
+    Check,        Batch, Lint, Space,   Export, Trace,           Demo,
+    Simulate,     Init,  Run,  Conform, Leaves, Command::Answer, Serve,
+    Mcp,          Lsp,   Fmt,  Watch,   WhatIf, Tests,           Explain,
+    Command::Diff};
 constexpr CommandSet kEvery = {
-    Check,    Batch,       Lint, Space,  Export,          Trace,
-    Simulate, Explain,     Demo, Init,   Conform,         Run,
-    Monitor,  Completions, Man,  Leaves, Command::Answer, Serve,
-    Mcp,      Lsp,         Fmt,  Watch,  WhatIf,          Tests};
+    Check,        Batch,       Lint, Space,  Export,          Trace,
+    Simulate,     Explain,     Demo, Init,   Conform,         Run,
+    Monitor,      Completions, Man,  Leaves, Command::Answer, Serve,
+    Mcp,          Lsp,         Fmt,  Watch,  WhatIf,          Tests,
+    Command::Diff};
 
 constexpr std::string_view kProfileNames =
     "paper btcpp-3.5.1 btcpp-3.5 btcpp-3.6 btcpp-3.7 btcpp-3.8 btcpp-4.0 "
@@ -313,14 +332,16 @@ constexpr OptionRow kOptions[] = {
      .value = "FILE",
      .names = ValueKind::File,
      .help = "a file of properties",
-     .commands = {Check, Lint, Export, Trace, Monitor, Run, Watch, WhatIf},
+     .commands = {Check, Lint, Export, Trace, Monitor, Run, Watch, WhatIf,
+                  Command::Diff},
      .is_repeatable = true,
      .first = {Check, Export, Trace, Run, Monitor, Watch, WhatIf},
      .example = "btcheck TREE --prop RULES.ltl"},
     {.name = "-e",
      .value = "RULE",
      .help = "a rule, as in a file of properties; its name may be left out",
-     .commands = {Check, Lint, Export, Trace, Monitor, Run, Watch, WhatIf},
+     .commands = {Check, Lint, Export, Trace, Monitor, Run, Watch, WhatIf,
+                  Command::Diff},
      .is_repeatable = true,
      .first = {Check, Trace},
      .example = "btcheck TREE -e 'never land.failure'"},
@@ -330,7 +351,7 @@ constexpr OptionRow kOptions[] = {
      .fallback = "what the property file says, else root",
      .help = "where time passes",
      .commands = {Check, Batch, Space, Export, Simulate, Demo, Init, Conform,
-                  WhatIf, Explain}},
+                  WhatIf, Explain, Command::Diff}},
     {.name = "--profile",
      .value = "PROFILE",
      .choices = kProfileNames,
@@ -553,6 +574,17 @@ constexpr OptionRow kOptions[] = {
      .is_repeatable = true,
      .first = {WhatIf},
      .example = "btcheck whatif TREE --format html=faults.html"},
+    {.name = "--format",
+     .value = "FORMAT",
+     .names = ValueKind::Target,
+     .choices = "text json markdown html",
+     .fallback = "text",
+     .help = "how the comparison is told: side by side as text, JSON, Markdown "
+             "for a pull request, a page with both trees",
+     .commands = {Command::Diff},
+     .is_repeatable = true,
+     .first = {Command::Diff},
+     .example = "btcheck diff OLD.xml NEW.xml --format html=diff.html"},
     {.name = "--format",
      .value = "FORMAT",
      .names = ValueKind::Target,
@@ -999,6 +1031,31 @@ constexpr OptionRow kOptions[] = {
      .commands = {WhatIf},
      .first = {WhatIf},
      .example = "btcheck whatif TREE --against faults.json"},
+    {.name = "--observe",
+     .value = "WHAT",
+     .fallback = "leaves",
+     .help =
+         "what is seen of a run beside its ticks and what the tree answers: "
+         "leaves; root, nothing else; or a node",
+     .commands = {Command::Diff},
+     .is_repeatable = true,
+     .first = {Command::Diff},
+     .example = "btcheck diff OLD.xml NEW.xml --observe root"},
+    {.name = "--caller",
+     .value = "CALLER",
+     .choices = "any once",
+     .fallback = "any",
+     .help = "any: ticks the trees again when they have ended, and may halt "
+             "them; once: until they have ended",
+     .commands = {Command::Diff},
+     .first = {Command::Diff},
+     .example = "btcheck diff OLD.xml NEW.xml --caller once"},
+    {.name = "--git",
+     .value = "REVISION",
+     .help = "compare one tree, or folder, with what it was then",
+     .commands = {Command::Diff},
+     .first = {Command::Diff},
+     .example = "btcheck diff --git main TREE.xml"},
     {.name = "--color",
      .value = "MODE",
      .choices = "auto always never",
@@ -1015,7 +1072,8 @@ constexpr OptionRow kOptions[] = {
      .commands = {WhatIf}},
     {.name = "-v",
      .help = "name the btcheck.toml that is used",
-     .commands = {Lint, Space, Export, Simulate, Conform, Run, Explain}},
+     .commands = {Lint, Space, Export, Simulate, Conform, Run, Explain,
+                  Command::Diff}},
     {.name = "--help",
      .help = "a screen of help; COMMAND --help: of one command; --help all: "
              "every option",

@@ -359,6 +359,14 @@ void NodeBuilder::on_halt(std::vector<Assignment> updates) {
   halt_children(at("halt"), at("halted"), std::move(updates));
 }
 
+void NodeBuilder::halted_by_caller(LocationId start,
+                                   std::vector<Assignment> updates) {
+  if (!node_.option) return;
+  choice(at("running"), at("halt"), {}, {}, "is halted by its caller");
+  halt_children(at("halt"), at("halted"), std::move(updates));
+  edge(at("halted"), start);
+}
+
 Expression NodeBuilder::some_child_runs() const {
   Expression runs;
   for (const NodeId each : node_.children) {

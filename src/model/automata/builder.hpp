@@ -152,6 +152,9 @@ class NodeBuilder {
                      std::vector<Assignment> updates = {});
   // halt → (children) → halted with these updates.
   void on_halt(std::vector<Assignment> updates = {});
+  // Of a root with Node::option: where it runs, its caller may halt it instead
+  // of ticking it again, with these updates; the next tick begins at `start`.
+  void halted_by_caller(LocationId start, std::vector<Assignment> updates = {});
 
   Expression some_child_runs() const;
   Expression all_children_are_back() const;

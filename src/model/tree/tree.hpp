@@ -450,7 +450,8 @@ struct Node {
   int failure_threshold = 0;  // Parallel, ParallelAll
   // A negative success_count: skipped children count as succeeding.
   bool counts_skipped = false;
-  // RunOnce then_skip, TryCatch catch_on_halt, RoundRobin wrap_around.
+  // RunOnce then_skip, TryCatch catch_on_halt, RoundRobin wrap_around; of a
+  // root: its caller may halt it while it runs.
   bool option = false;
   // What a Precondition, Loop, WhenUpdated or BlackboardCheck answers instead
   // of ticking its child.

@@ -502,6 +502,7 @@ void draw_engine_root(NodeBuilder& draw) {
   }
   ends(NodeStatus::Success, "success", loops);
   ends(NodeStatus::Failure, "failure", loops);
+  draw.halted_by_caller(start, {set(child, NodeStatus::NoRetStatus)});
   if (!draw.context().answers[index(draw.child(0))].skipped) return;
   ends(NodeStatus::Skipped, "skipped", loops);
   ends(NodeStatus::SkippedRunning, "skipped", loops);

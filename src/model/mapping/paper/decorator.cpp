@@ -106,6 +106,7 @@ void draw_root(NodeBuilder& draw) {
   ends(NodeStatus::Running, true);
   ends(NodeStatus::Success, draw.node().loop);
   ends(NodeStatus::Failure, draw.node().loop);
+  draw.halted_by_caller(start);
 }
 
 constexpr Drawing kDecoratorRows[] = {

@@ -33,6 +33,9 @@ class PyTreesBuilder : public EngineBuilder {
   void on_stop(std::vector<Assignment> updates = {});
 };
 
+// That a node, and all below it, are INVALID.
+std::vector<Assignment> all_invalid(const Context& context, NodeId node);
+
 extern const Family kPyTreesLeafDrawings;
 extern const Family kPyTreesCompositeDrawings;
 extern const Family kPyTreesDecoratorDrawings;

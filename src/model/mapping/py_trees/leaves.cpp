@@ -73,6 +73,7 @@ void draw_py_trees_root(NodeBuilder& draw) {
   ends(NodeStatus::Success, "success");
   ends(NodeStatus::Failure, "failure");
   ends(NodeStatus::Running, "running");
+  draw.halted_by_caller(start, all_invalid(draw.context(), draw.child(0)));
 }
 
 constexpr Drawing kPyTreesLeafRows[] = {

@@ -8,19 +8,22 @@
 
 namespace btcheck::mapping {
 
-std::vector<Assignment> PyTreesBuilder::invalid(std::size_t child) {
-  const Context& context = draw().context();
+std::vector<Assignment> all_invalid(const Context& context, NodeId node) {
   const BehaviorTree& tree = context.tree;
   std::vector<Assignment> updates;
-  std::vector<NodeId> open = {draw().child(child)};
+  std::vector<NodeId> open = {node};
   while (!open.empty()) {
-    const NodeId node = open.back();
+    const NodeId at = open.back();
     open.pop_back();
-    updates.push_back(set(context.status(node), NodeStatus::NoRetStatus));
-    const auto& below = tree.node(node).children;
+    updates.push_back(set(context.status(at), NodeStatus::NoRetStatus));
+    const auto& below = tree.node(at).children;
     open.insert(open.end(), below.begin(), below.end());
   }
   return updates;
+}
+
+std::vector<Assignment> PyTreesBuilder::invalid(std::size_t child) {
+  return all_invalid(draw().context(), draw().child(child));
 }
 
 std::vector<Assignment> PyTreesBuilder::invalid(
