@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "explore/minimise/difference.hpp"
 #include "explore/minimise/partition.hpp"
 
 namespace btcheck::minimise_test {
@@ -44,39 +43,6 @@ TEST_CASE("going on for ever is not the same as stopping") {
   CHECK(blocks == Partition{{0, 1, 0, 0}, 2});
   CHECK(quotient(graph, blocks, Equivalence::Branching) ==
         graph_of({{{0, 0}}, {}}));
-}
-
-TEST_CASE("a shortest run that one has and the other has not is told") {
-  // 0: 1 then 2; 3: 1 then 1, after a hidden step.
-  const LabelledGraph graph =
-      graph_of({{{1, 1}}, {{2, 2}}, {}, {{0, 4}}, {{1, 5}}, {{1, 2}}});
-  const ComparedRuns compared = compare_runs(graph, 0, 3);
-  CHECK(compared.is_complete);
-  CHECK(compared.difference ==
-        RunDifference{false, {1, 1}, DifferenceEnd::Step});
-  CHECK(compare_runs(graph, 3, 0).difference ==
-        RunDifference{true, {1, 1}, DifferenceEnd::Step});
-  CHECK(!compare_runs(graph, 3, 4).difference);
-  CHECK(!compare_runs(graph, 0, 3, 1).is_complete);
-}
-
-TEST_CASE("the end of a run tells states apart as well") {
-  const LabelledGraph graph =
-      graph_of({{{1, 1}, {1, 2}}, {}, {{0, 2}}, {{1, 1}}, {{1, 2}}});
-  CHECK(compare_runs(graph, 0, 3).difference ==
-        RunDifference{true, {1}, DifferenceEnd::Silence});
-  CHECK(compare_runs(graph, 4, 0).difference ==
-        RunDifference{false, {1}, DifferenceEnd::Stop});
-  CHECK(compare_runs(graph, 1, 2).difference ==
-        RunDifference{true, {}, DifferenceEnd::Stop});
-}
-
-TEST_CASE("a choice made early is told apart by no run") {
-  const LabelledGraph graph = graph_of(
-      {{{1, 1}, {1, 2}}, {{2, 4}}, {{3, 4}}, {{1, 5}}, {}, {{2, 4}, {3, 4}}});
-  CHECK(!compare_runs(graph, 0, 3).difference);
-  const Partition blocks = coarsest_partition(graph, Equivalence::Strong);
-  CHECK(blocks.block[0] != blocks.block[3]);
 }
 
 }  // namespace btcheck::minimise_test
