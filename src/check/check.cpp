@@ -145,8 +145,10 @@ void search(const BehaviorTree& tree, CheckedFile& checked,
             const CheckOptions& options, bool is_first) {
   const CompiledNetwork system(*checked.network);
   if (checked.properties) {
+    SearchChoices choices = options.choices;
+    if (options.start) choices.parts = PartsUse::Never;
     Verification verification =
-        verify(system, checked.bound, options.choices, options.limits);
+        verify(system, checked.bound, choices, options.limits);
     checked.verdicts = std::move(verification.verdicts);
     checked.has_faults = verification.has_faults;
     // Other rules would be asked from the beginning.

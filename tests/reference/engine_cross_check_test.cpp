@@ -104,6 +104,10 @@ class FileComparison {
           flaw_with({SearchOrder::BreadthFirst, reduction});
       if (!wrong.empty() || expected_.empty()) return wrong;
     }
+    SearchChoices in_parts;
+    in_parts.parts = PartsUse::Always;
+    const std::string wrong = flaw_with(in_parts);
+    if (!wrong.empty()) return "in parts: " + wrong;
     for (std::size_t i = properties_.size(); i-- > 0;) {
       const PropertyKind kind = properties_[i].kind;
       if (kind == PropertyKind::State || kind == PropertyKind::Ltl ||

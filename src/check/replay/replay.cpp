@@ -322,7 +322,13 @@ std::optional<Run> replay(Replayer replayer, const Lasso& found,
   if (replayer.begin(found.prefix.front().state)) {
     run.initial = replayer.state();
     bool goes_on = take_from_first(found.prefix);
-    if (goes_on && found.cycle.empty()) return run;
+    if (goes_on && found.cycle.empty()) {
+      // Where it ends in a dead state, that of the whole is one too.
+      replayer.settle([&](const Step& single, const Valuation& after) {
+        run.steps.push_back({single, after});
+      });
+      return run;
+    }
     goes_on =
         goes_on && take(found.cycle.front().step, found.cycle.front().state);
     std::vector<std::size_t> rounds;

@@ -16,6 +16,7 @@
 #include "check/replay/shorten.hpp"
 #include "check/search/searched_network.hpp"
 #include "check/search/searches.hpp"
+#include "explore/search/reachability.hpp"
 #include "explore/state/spent.hpp"
 #include "text/budget.hpp"
 
@@ -79,8 +80,8 @@ class Verifier {
         within_limits([&] { verify_formula(bound, verdict); });
       }
     }
-    const FileSearch all{system_, file_, choices_.reduction, limits_,
-                         verdicts_};
+    const FileSearch all{system_,    file_,   choices_.reduction,
+                         in_parts(), limits_, verdicts_};
     within_limits([&] { verify_branching(all); });
     within_limits([&] { judge_assumptions(); });
     within_limits([&] { judge_comparisons(); });
@@ -135,8 +136,6 @@ class Verifier {
       predicates.push_back(sought(file_.properties[i]));
     }
     if (asked.empty()) return;
-    const SearchedNetwork searched(
-        system_, observed_alone(network(), predicates), choices_.reduction);
     // With assumptions a run of its own is searched that satisfies them.
     const bool wants_runs = choices_.keeps_runs && !has_assumptions();
     const auto take_runs = [&](const SearchedNetwork& in) -> TakeRun {
@@ -151,17 +150,41 @@ class Verifier {
         });
       };
     };
-    const StateAnswers answers =
-        search_states(searched.system(), predicates, {}, choices_, limits_,
-                      take_runs(searched));
-    for (std::size_t q = 0; q < asked.size(); ++q) {
-      judge_states(asked[q], answers.result, answers.met[q]);
+    std::vector<bool> met(asked.size(), false);
+    bool is_reduced = false;
+    for (const std::vector<bool>& together : together_of(asked.size())) {
+      std::vector<StatePredicate> observed;
+      for (std::size_t q = 0; q < asked.size(); ++q) {
+        if (together[q]) observed.push_back(predicates[q]);
+      }
+      const SearchedNetwork searched(system_,
+                                     observed_alone(network(), observed),
+                                     choices_.reduction, in_parts());
+      is_reduced = is_reduced || searched.is_reduced();
+      const StateAnswers answers =
+          search_states(searched.system(), predicates, together, choices_,
+                        limits_, take_runs(searched));
+      for (std::size_t q = 0; q < asked.size(); ++q) {
+        if (!together[q]) continue;
+        judge_states(asked[q], answers.result, answers.met[q]);
+        met[q] = answers.met[q];
+      }
     }
-    if (!wants_runs || !searched.system().is_reduced()) return;
+    if (!wants_runs || !is_reduced) return;
     const SearchedNetwork whole(system_);
-    search_states(whole.system(), predicates, answers.met, choices_,
-                  short_run_limits_, take_runs(whole));
+    search_states(whole.system(), predicates, met, choices_, short_run_limits_,
+                  take_runs(whole));
   }
+
+  // Of so many questions, those that are asked in one search. In parts each is
+  // by itself: what is seen of all would have to stand at the same time.
+  std::vector<std::vector<bool>> together_of(std::size_t count) const {
+    if (!in_parts()) return {std::vector<bool>(count, true)};
+    std::vector<std::vector<bool>> each(count, std::vector<bool>(count, false));
+    for (std::size_t q = 0; q < count; ++q) each[q][q] = true;
+    return each;
+  }
+  bool in_parts() const { return choices_.parts == PartsUse::Always; }
 
   void judge_states(std::size_t property, const ReachabilityResult& result,
                     bool is_met) {
@@ -187,13 +210,14 @@ class Verifier {
   template <class SearchIn>
   auto answer(const Observed& observed, PropertyVerdict& verdict,
               const Shows& shows, SearchIn&& search_in) const {
-    const SearchedNetwork searched(system_, observed, choices_.reduction);
+    const SearchedNetwork searched(system_, observed, choices_.reduction,
+                                   in_parts());
     auto search = search_in(searched.system(), limits_);
     verdict.progress = search.progress;
     verdict.stopped = search.stopped;
     if (search.lasso && shows && choices_.keeps_runs) {
       show(searched, *search.lasso, verdict, shows);
-      if (verdict.run && searched.system().is_reduced()) {
+      if (verdict.run && searched.is_reduced()) {
         show_shorter(search_in, verdict, shows);
       }
     }
@@ -320,8 +344,9 @@ class Verifier {
 
   // Whether some fair run violates the formula.
   SearchOutcome exists_run(const BoundFormula& formula) const {
-    const SearchedNetwork searched(
-        system_, observed_by(network(), formula, strong()), choices_.reduction);
+    const SearchedNetwork searched(system_,
+                                   observed_by(network(), formula, strong()),
+                                   choices_.reduction, in_parts());
     return exists_run_against(searched.system(), formula, strong(), limits_);
   }
 
@@ -335,14 +360,26 @@ class Verifier {
       }
     }
     if (where.empty()) return;
-    const SearchedNetwork searched(system_, observed_alone(network(), where),
-                                   choices_.reduction);
-    const StateAnswers answers =
-        search_states(searched.system(), where, {}, choices_, limits_);
+    std::vector<bool> unreached(where.size(), false);
+    for (const std::vector<bool>& together : together_of(where.size())) {
+      std::vector<StatePredicate> observed;
+      for (std::size_t q = 0; q < where.size(); ++q) {
+        if (together[q]) observed.push_back(where[q]);
+      }
+      const SearchedNetwork searched(system_,
+                                     observed_alone(network(), observed),
+                                     choices_.reduction, in_parts());
+      const StateAnswers answers =
+          search_states(searched.system(), where, together, choices_, limits_);
+      for (std::size_t q = 0; q < where.size(); ++q) {
+        if (!together[q]) continue;
+        unreached[q] = answers.result.is_complete && !answers.met[q];
+      }
+    }
     const auto is_unreached = [&](const OpenComparison& comparison) {
       for (std::size_t q = 0; q < where.size(); ++q) {
-        if (where[q].expression != comparison.where) continue;
-        return answers.result.is_complete && !answers.met[q];
+        if (where[q].expression == comparison.where)
+          return unreached[q] == true;
       }
       return false;
     };
@@ -383,8 +420,31 @@ class Verifier {
 
 }  // namespace
 
+namespace {
+
+constexpr std::size_t kFewAutomata = 30;
+
+// A sample tells: how much is left where nothing is looked at.
+bool is_large(const CompiledNetwork& system, const Limits& limits) {
+  if (system.network().automata.size() < kFewAutomata) return false;
+  const SearchedNetwork searched(system, Observed(system.network()),
+                                 Reduction::Full);
+  Limits few = limits;
+  few.max_states = std::min(limits.max_states, kLargeStates);
+  ReachabilityVisitor nothing;
+  return BreadthFirst(searched.system(), few).run(nothing).stopped ==
+         StopReason::MaxStates;
+}
+
+}  // namespace
+
 Verification verify(const CompiledNetwork& system, const BoundFile& file,
                     SearchChoices choices, const Limits& limits) {
+  if (choices.reduction != Reduction::Full) choices.parts = PartsUse::Never;
+  if (choices.parts == PartsUse::WhereLarge && !file.properties.empty()) {
+    choices.parts =
+        is_large(system, limits) ? PartsUse::Always : PartsUse::Never;
+  }
   return Verifier(system, file, choices, limits).run();
 }
 

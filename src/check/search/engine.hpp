@@ -16,11 +16,21 @@
 
 namespace btcheck {
 
+// Of a network that is at its start.
+enum class PartsUse : std::uint8_t {
+  Never,
+  WhereLarge,  // more than kLargeStates states are left by full reduction
+  Always
+};
+inline constexpr std::uint64_t kLargeStates = 100'000;
+
 struct SearchChoices {
   // Where single states are asked for.
   SearchOrder order = SearchOrder::BreadthFirst;
   // Of all but branching time, where at most dead values are forgotten.
   Reduction reduction = Reduction::Full;
+  // Whether rules are asked part by part, with Reduction::Full.
+  PartsUse parts = PartsUse::WhereLarge;
   unsigned threads = 1;  // for single states; no answer depends on it
   Scratch scratch = {};  // where that search goes on when memory is used up
   // Up to so many states one thread searches and keeps who was reached from

@@ -7,15 +7,64 @@
 #include "check/search/searched_network.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace btcheck {
+
+// The nodes whose variables are seen stand as they are.
+struct SearchedNetwork::Parts {
+  Parts(const Network& network, const Observed& observed)
+      : components(network, seen_in(network, observed), {}),
+        composition(components, standing(network, observed), false) {}
+
+  static std::vector<bool> seen_in(const Network& network,
+                                   const Observed& observed) {
+    std::vector<bool> seen;
+    for (std::uint32_t v = 0; v < network.variables.size(); ++v) {
+      seen.push_back(observed.sees(VariableId{v}));
+    }
+    return seen;
+  }
+  static std::vector<bool> standing(const Network& network,
+                                    const Observed& observed) {
+    std::vector<bool> stands(network.automata.size(), false);
+    for (std::uint32_t v = 0; v < network.variables.size(); ++v) {
+      const auto owner = network.variables[v].owner;
+      if (!owner || !observed.sees(VariableId{v})) continue;
+      const Automaton& automaton = network.automaton(*owner);
+      if (automaton.kind == AutomatonKind::StateVariable) continue;
+      stands[index(network.node_automaton[index(automaton.node)])] = true;
+    }
+    return stands;
+  }
+
+  ComponentTable components;
+  Composition composition;
+};
+
+SearchedNetwork::~SearchedNetwork() = default;
 
 SearchedNetwork::SearchedNetwork(const CompiledNetwork& system)
     : original_(system), reduced_(system) {}
 
 SearchedNetwork::SearchedNetwork(const CompiledNetwork& system,
-                                 const Observed& observed, Reduction reduction)
-    : SearchedNetwork(system, observed, observed, reduction) {}
+                                 const Observed& observed, Reduction reduction,
+                                 bool in_parts)
+    : original_(system), reduced_(system) {
+  const Network* network = &system.network();
+  const bool sees_silence = observed.sees_steps() || observed.sees_death();
+  if (in_parts && reduction == Reduction::Full && !sees_silence) {
+    auto parts = std::make_unique<const Parts>(*network, observed);
+    if (parts->composition.left_out() > 0) {
+      own_parts_ = std::move(parts);
+      parts_ = &own_parts_->composition;
+      network = &parts_->network();
+    }
+  }
+  if (reduction == Reduction::None) return;
+  const Observed wide = observed.widened(*network);
+  reduce(*network, wide, wide, reduction);
+}
 
 SearchedNetwork::SearchedNetwork(const CompiledNetwork& system,
                                  const Observed& seen, const Observed& kept,

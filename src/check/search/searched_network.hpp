@@ -3,6 +3,7 @@
 // A network made ready to be searched for the answer to one question.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,9 +24,11 @@ class SearchedNetwork {
  public:
   // Nothing reduced. The system must outlive this.
   explicit SearchedNetwork(const CompiledNetwork& system);
-  // What is observed must be all that the search looks at.
+  // What is observed must be all that the search looks at. With `in_parts` all
+  // else stands as components, where that keeps the answers: of linear time, in
+  // which neither single steps nor dead states beside others are seen.
   SearchedNetwork(const CompiledNetwork& system, const Observed& observed,
-                  Reduction reduction);
+                  Reduction reduction, bool in_parts = false);
   // For a search that notices changes of `seen` at any moment, and looks at
   // `kept` only on certain steps of the nodes concerned.
   SearchedNetwork(const CompiledNetwork& system, const Observed& seen,
@@ -34,10 +37,15 @@ class SearchedNetwork {
   // `parts`, which must outlive this, and is told in terms of its network.
   SearchedNetwork(const CompiledNetwork& system, const Composition& parts,
                   const Observed& seen, const Observed& kept);
+  ~SearchedNetwork();
   SearchedNetwork(const SearchedNetwork&) = delete;
   SearchedNetwork& operator=(const SearchedNetwork&) = delete;
 
   const ReducedNetwork& system() const { return *reduced_; }
+  // A run that is found here need not be a shortest one.
+  bool is_reduced() const {
+    return parts_ != nullptr || reduced_->is_reduced();
+  }
 
   // The run that a search of `system()` has found, step by step, executed on
   // the network as it was given; sets `error` when it cannot be.
@@ -49,7 +57,10 @@ class SearchedNetwork {
   void reduce(const Network& network, const Observed& seen,
               const Observed& kept, Reduction reduction);
 
+  struct Parts;
+
   const CompiledNetwork& original_;
+  std::unique_ptr<const Parts> own_parts_;
   const Composition* parts_ = nullptr;
   std::optional<LiveNetwork> live_;
   std::optional<CompiledNetwork> compiled_;  // live_'s

@@ -66,6 +66,7 @@ struct FileSearch {
   const CompiledNetwork& system;
   const BoundFile& file;
   Reduction reduction;
+  bool in_parts;
   const Limits& limits;
   std::vector<PropertyVerdict>& verdicts;
 };

@@ -45,7 +45,7 @@ std::vector<VacuousPart> vacuous_parts(const FileSearch& all,
   const std::vector<FairnessPair>& strong = all.file.assumptions.strong;
   const SearchedNetwork searched(
       all.system, observed_by(all.system.network(), whole, strong),
-      all.reduction);
+      all.reduction, all.in_parts);
   const std::vector<Polarity> polarity = polarities(whole.pool, whole.formula);
   std::size_t tried = 0;
   for (const std::uint32_t atom : whole.pool.atoms(whole.formula)) {
@@ -112,19 +112,31 @@ bool take_census(const FileSearch& all) {
     triggers.push_back(trigger->predicate);
   }
   if (counted.empty() && !network.fault) return false;
-  const SearchedNetwork searched(all.system, observed_alone(network, triggers),
-                                 all.reduction);
-  Census census(searched.system(), triggers);
-  const ReachabilityResult result =
-      BreadthFirst(searched.system(), all.limits).run(census);
-  for (std::size_t k = 0; k < counted.size() && result.is_complete; ++k) {
-    PropertyVerdict& verdict = all.verdicts[counted[k]];
-    verdict.triggers = census.counts[k];
-    if (verdict.triggers == 0u) {
-      verdict.idle = all.file.properties[counted[k]].trigger->text;
+  // What is seen of all has to stand at the same time.
+  std::vector<std::vector<std::size_t>> groups(1);
+  for (std::size_t k = 0; k < counted.size(); ++k) {
+    if (all.in_parts && k > 0) groups.emplace_back();
+    groups.back().push_back(k);
+  }
+  bool has_fault = false;
+  for (const std::vector<std::size_t>& group : groups) {
+    std::vector<StatePredicate> asked;
+    for (const std::size_t k : group) asked.push_back(triggers[k]);
+    const SearchedNetwork searched(all.system, observed_alone(network, asked),
+                                   all.reduction, all.in_parts);
+    Census census(searched.system(), asked);
+    const ReachabilityResult result =
+        BreadthFirst(searched.system(), all.limits).run(census);
+    has_fault = has_fault || census.has_fault;
+    for (std::size_t i = 0; i < group.size() && result.is_complete; ++i) {
+      PropertyVerdict& verdict = all.verdicts[counted[group[i]]];
+      verdict.triggers = census.counts[i];
+      if (verdict.triggers == 0u) {
+        verdict.idle = all.file.properties[counted[group[i]]].trigger->text;
+      }
     }
   }
-  return census.has_fault;
+  return has_fault;
 }
 
 }  // namespace btcheck

@@ -57,6 +57,13 @@ class Observed {
            std::ranges::find(view.values, value) != view.values.end();
   }
 
+  // The same of a network with more variables, of which nothing is seen.
+  Observed widened(const Network& network) const {
+    Observed wide = *this;
+    wide.views_.resize(network.variables.size());
+    return wide;
+  }
+
   // Whether being dead makes a difference to some question.
   bool sees_death() const { return sees_death_; }
   // Whether some question is about single steps.
