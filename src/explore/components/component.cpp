@@ -152,7 +152,10 @@ const Component* ComponentTable::of(AutomatonId root, PartSide side) {
     // Its members come first; they are not among each other's.
     auto all = members(root, side);
     std::optional<Component> made;
-    if (all) made = OpenPart(*this, root, side, std::move(*all)).take();
+    if (all && states_ < limits_.all_states) {
+      made = OpenPart(*this, root, side, std::move(*all)).take();
+    }
+    if (made) states_ += made->size();
     known = std::move(made);
   }
   return known->has_value() ? &**known : nullptr;

@@ -121,6 +121,7 @@ class ComponentTable {
   struct Limits {
     std::size_t states = 50'000;
     std::size_t edges = 5'000;  // of one automaton
+    std::size_t all_states = 400'000;
   };
 
   // `shared`: by variable, whether somebody else looks at it. The network must
@@ -207,6 +208,7 @@ class ComponentTable {
   // somebody else touches as well.
   std::vector<std::vector<std::uint32_t>> users_;
   std::vector<std::optional<std::optional<Component>>> known_[2];
+  std::size_t states_ = 0;  // of all that are known
 };
 
 }  // namespace btcheck
