@@ -57,9 +57,9 @@ DefaultQuestions::DefaultQuestions(const BehaviorTree& tree,
       left_running(tree, system),
       sightings(watched, system, asked.sightings),
       system_(system),
-      is_of_sightings_(!asked.of_tree && !asked.nodes.empty() &&
-                       std::ranges::find(asked.nodes, true) ==
-                           asked.nodes.end()),
+      is_of_sightings_(
+          !asked.of_tree && !asked.left_running && !asked.nodes.empty() &&
+          std::ranges::find(asked.nodes, true) == asked.nodes.end()),
       question_of_edge_(system.network().edge_count(), nullptr),
       is_like_time_(system.network().edge_count(), false) {
   const Network& network = system.network();

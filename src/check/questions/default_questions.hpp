@@ -28,6 +28,7 @@ using FirstStep = std::optional<FoundStep>;
 // Which of the questions a search is for.
 struct Asked {
   bool of_tree = true;
+  bool left_running = true;
   std::vector<bool> nodes = {};      // by NodeId; empty: all
   std::vector<bool> sightings = {};  // by number; empty: all
 

@@ -94,7 +94,7 @@ class Groups {
     // A watch of its own looks for these wherever their nodes stand.
     for (std::vector<NodeId>& way : ways_left_running(tree, network)) {
       std::ranges::sort(way);
-      group_of(way);
+      group_of(way).asked.left_running = true;
     }
     add_largest(apart);
   }
@@ -114,6 +114,11 @@ class Groups {
       singles.push_back(empty());
       singles.back().nodes = nodes_of(sightings_[i]);
       singles.back().asked.sightings[i] = true;
+    }
+    if (group.asked.left_running) {
+      singles.push_back(empty());
+      singles.back().nodes = group.nodes;
+      singles.back().asked.left_running = true;
     }
     return singles;
   }
@@ -146,6 +151,7 @@ class Groups {
         all_.push_back(*group);
         continue;
       }
+      larger->asked.left_running |= group->asked.left_running;
       for (std::size_t i = 0; i < sightings_.size(); ++i) {
         if (group->asked.has_sighting(i)) larger->asked.sightings[i] = true;
       }
@@ -154,7 +160,7 @@ class Groups {
 
   Group empty() const {
     return {{},
-            {false, std::vector<bool>(tree_.nodes.size(), false),
+            {false, false, std::vector<bool>(tree_.nodes.size(), false),
              std::vector<bool>(sightings_.size(), false)}};
   }
   void ask(NodeId node, Group& group) const {
