@@ -155,6 +155,7 @@ CheckOptions check_options(const Options& options, const Limits& limits) {
   return {options.ticks,
           {options.search,
            options.reduce,
+           PartsUse::WhereLarge,
            threads_to_use(options),
            {options.scratch_dir}},
           options.assume,
