@@ -112,8 +112,8 @@ TEST_CASE("no run that tells two states apart is shorter than what is found") {
   CHECK_COVERED(different > graphs / 4);
   CHECK_COVERED(by_step > 10);
   CHECK_COVERED(by_stop > 10);
-  CHECK_COVERED(by_silence > 10);
-  CHECK_COVERED(same > 10);
+  CHECK_COVERED(by_silence > 3);
+  CHECK_COVERED(same > 3);
 }
 
 }  // namespace btcheck::reference::traces_cross_check_test

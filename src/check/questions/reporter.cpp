@@ -44,7 +44,13 @@ void Reporter::never_loops(const std::vector<StateId>& loop) {
 }
 
 std::optional<KeptRun> Reporter::run_to(StateId state) {
-  return run_to(place_of(state));
+  auto place = place_of(state);
+  if (!place) return std::nullopt;
+  // Where nothing can happen any more, nothing is left to be done.
+  if (at_ != place) replayer_.go_on_from(runs_->state(*place));
+  replayer_.settle(following(*place));
+  at_ = place;
+  return run_to(place);
 }
 std::optional<KeptRun> Reporter::run_to(const FoundStep& last) {
   return run_to(place_behind(last));

@@ -281,9 +281,8 @@ bool Replayer::take_in_parts(const Step& step, const Taken& taken) {
   return true;
 }
 
-bool Replayer::settle(const Taken& taken) {
-  if (parts_ == nullptr || parts_->settle(state_, firing(taken))) return true;
-  return failed(kIdleStep, "does not come");
+void Replayer::settle(const Taken& taken) {
+  if (parts_ != nullptr) parts_->settle(state_, firing(taken));
 }
 
 bool Replayer::take(const Step& step, const StateVector& seen,
@@ -322,13 +321,7 @@ std::optional<Run> replay(Replayer replayer, const Lasso& found,
   if (replayer.begin(found.prefix.front().state)) {
     run.initial = replayer.state();
     bool goes_on = take_from_first(found.prefix);
-    if (goes_on && found.cycle.empty()) {
-      // Where it ends in a dead state, that of the whole is one too.
-      replayer.settle([&](const Step& single, const Valuation& after) {
-        run.steps.push_back({single, after});
-      });
-      return run;
-    }
+    if (goes_on && found.cycle.empty()) return run;
     goes_on =
         goes_on && take(found.cycle.front().step, found.cycle.front().state);
     std::vector<std::size_t> rounds;

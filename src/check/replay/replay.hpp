@@ -87,8 +87,8 @@ class Replayer {
   // False, and `error` says why, where the search has seen something else.
   bool begin(const StateVector& seen);
   bool take(const Step& step, const StateVector& seen, const Taken& taken);
-  // What parts do by themselves, until time has to pass.
-  bool settle(const Taken& taken);
+  // What parts do by themselves, until time has to pass, if they come to that.
+  void settle(const Taken& taken);
   const Valuation& state() const { return state_; }
   // Goes on from a state that has been executed before.
   void go_on_from(Valuation state) { state_ = std::move(state); }

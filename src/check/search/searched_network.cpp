@@ -3,7 +3,8 @@
 // A formula with the next-step operator, or about single steps, notices every
 // step: then only dead values are forgotten. The same where it says something
 // of dead states beside other things: which step of several is the last one
-// would then make a difference.
+// would then make a difference. And beside components, in which time that
+// passes may be all that happens, no state is known to be dead.
 #include "check/search/searched_network.hpp"
 
 #include <algorithm>
@@ -52,7 +53,8 @@ SearchedNetwork::SearchedNetwork(const CompiledNetwork& system,
                                  bool in_parts)
     : original_(system), reduced_(system) {
   const Network* network = &system.network();
-  const bool sees_silence = observed.sees_steps() || observed.sees_death();
+  const bool sees_silence =
+      observed.sees_steps() || observed.sees_dead_states();
   if (in_parts && reduction == Reduction::Full && !sees_silence) {
     auto parts = std::make_unique<const Parts>(*network, observed);
     if (parts->composition.left_out() > 0) {
@@ -112,6 +114,7 @@ Observed observed_alone(const Network& network,
             conjuncts.end();
     if (is_of_dead_states) {
       observed.add(*predicate.when_dead);
+      observed.add_dead_states();
     } else {
       observed.add(predicate);
     }

@@ -26,7 +26,7 @@ class SearchedNetwork {
   explicit SearchedNetwork(const CompiledNetwork& system);
   // What is observed must be all that the search looks at. With `in_parts` all
   // else stands as components, where that keeps the answers: of linear time, in
-  // which neither single steps nor dead states beside others are seen.
+  // which neither single steps nor dead states are seen.
   SearchedNetwork(const CompiledNetwork& system, const Observed& observed,
                   Reduction reduction, bool in_parts = false);
   // For a search that notices changes of `seen` at any moment, and looks at

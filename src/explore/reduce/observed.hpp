@@ -41,6 +41,8 @@ class Observed {
   }
   // Every single step.
   void add_steps() { sees_steps_ = true; }
+  // Dead states, and nothing of others.
+  void add_dead_states() { sees_dead_states_ = true; }
 
   // Whether some question can notice any change of the variable.
   bool sees(VariableId variable) const {
@@ -66,6 +68,8 @@ class Observed {
 
   // Whether being dead makes a difference to some question.
   bool sees_death() const { return sees_death_; }
+  // Or is all that one asks for.
+  bool sees_dead_states() const { return sees_death_ || sees_dead_states_; }
   // Whether some question is about single steps.
   bool sees_steps() const { return sees_steps_; }
 
@@ -78,6 +82,7 @@ class Observed {
 
   std::vector<View> views_;  // by VariableId
   bool sees_death_ = false;
+  bool sees_dead_states_ = false;
   bool sees_steps_ = false;
 };
 
