@@ -85,6 +85,9 @@ Spent Call::spent(Progress progress) {
     what = Spent::Time;
   } else if (monitor_ != nullptr && now >= next_) {
     next_ = now + kAskEvery;
+    // Between searches it is where the last one stood.
+    if (progress.states == 0) progress.states = states_;
+    states_ = progress.states;
     progress.seconds = now;
     if (!monitor_->goes_on(progress)) {
       is_stopped_ = true;

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -57,6 +58,7 @@ class Call final : public Budget, public SearchMonitor {
   const double seconds_;
   Monitor* monitor_;
   std::atomic<double> next_ = 0;
+  std::atomic<std::uint64_t> states_ = 0;  // told last
   std::atomic<bool> is_stopped_ = false;
   std::atomic<double> stopped_at_ = -1;  // seconds; before: negative
 };

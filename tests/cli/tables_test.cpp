@@ -93,7 +93,9 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
         option.name == "--break-for" || option.name == "--allow-inject";
     if (goes_with) line.emplace_back("--break=dock");
   }
-  if (option.name == "--observe") line.emplace_back("--reduce=bisimulation");
+  if (option.name == "--observe" && command.command == Command::Space) {
+    line.emplace_back("--reduce=bisimulation");
+  }
   line.emplace_back(option.name);
   if (option.may_stand_alone) {
     line.back() += '=' + value;

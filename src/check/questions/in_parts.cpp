@@ -25,9 +25,12 @@
 namespace btcheck {
 namespace {
 
-// States of one search, and of all: beyond that the whole is the better bet.
+// States of one search, and of one that is worth its while as most of the
+// network is left out of it; and of all: beyond that the whole is the better
+// bet.
 constexpr std::uint64_t kMostStates = 65'536;
-constexpr std::uint64_t kMostStatesInAll = 2'000'000;
+constexpr std::uint64_t kMostStatesOfFew = 4'000'000;
+constexpr std::uint64_t kMostStatesInAll = 20'000'000;
 
 // What is asked in one search, and which nodes have to stand for it.
 struct Group {
@@ -194,11 +197,16 @@ class PartSearch {
             whole, parts_, seen_by_default(tree, parts_.network(), group.asked),
             kept_for_default(tree, parts_.network(), sightings, group.asked)),
         questions_(tree, searched_.system().network(), sightings, group.asked),
-        search_(searched_.system(), limits) {
+        limits_(limits),
+        search_(searched_.system(), limits_) {
+    const bool is_small =
+        2 * parts_.left_out() >= whole.network().automata.size();
+    limits_.max_states =
+        std::min(limits.max_states, is_small ? kMostStatesOfFew : kMostStates);
     result_ = search_.run(questions_);
     if (result_.is_complete) questions_.graph.close(search_.store().size());
     reporter_.emplace(searched_, search_, result_.is_complete, whole.network(),
-                      limits, report);
+                      limits_, report);
   }
   PartSearch(const PartSearch&) = delete;
   PartSearch& operator=(const PartSearch&) = delete;
@@ -231,9 +239,36 @@ class PartSearch {
   Composition parts_;
   SearchedNetwork searched_;
   DefaultQuestions questions_;
+  Limits limits_;
   BreadthFirst<ReducedNetwork> search_;
   ReachabilityResult result_;
   std::optional<Reporter> reporter_;
+};
+
+// Tells how far all searches have come.
+class MonitorOfAll : public SearchMonitor {
+ public:
+  MonitorOfAll(SearchMonitor* monitor, const SearchProgress& done)
+      : monitor_(monitor), done_(done) {}
+
+  StopReason observe(const SearchProgress& progress) override {
+    if (monitor_ == nullptr) return StopReason::None;
+    SearchProgress all = progress;
+    all.states += done_.states;
+    all.expanded += done_.expanded;
+    all.transitions += done_.transitions;
+    return monitor_->observe(all);
+  }
+  bool may_tell() override {
+    return monitor_ == nullptr || monitor_->may_tell();
+  }
+  bool has_spare() override {
+    return monitor_ == nullptr || monitor_->has_spare();
+  }
+
+ private:
+  SearchMonitor* monitor_;
+  const SearchProgress& done_;
 };
 
 // All searches of a report.
@@ -299,8 +334,9 @@ class SearchInParts {
     }
     SearchProgress& all = report_.progress;
     Limits few = limits_;
-    few.max_states = std::min(
-        kMostStates, most_states() - std::min(most_states(), all.states));
+    few.max_states -= std::min(few.max_states, all.states);
+    few.max_bytes -= std::min(few.max_bytes, held_);
+    few.monitor = &monitor_;
     auto made = std::make_unique<PartSearch>(
         tree_, system_, components_, group, inquiry_.sightings(), few, report_);
     const auto& [stopped, is_complete, progress] = made->result();
@@ -308,11 +344,14 @@ class SearchInParts {
     all.expanded += progress.expanded;
     all.transitions += progress.transitions;
     all.depth = std::max(all.depth, progress.depth);
-    all.bytes = std::max(all.bytes, progress.bytes);
+    all.bytes = std::max(all.bytes, held_ + progress.bytes);
     ++report_.searches;
     const bool knows_all = made->is_complete();
     if (!knows_all) report_.stopped = stopped;
-    if (made->is_told()) searches_.push_back(std::move(made));
+    if (made->is_told()) {
+      held_ += progress.bytes;
+      searches_.push_back(std::move(made));
+    }
     return knows_all;
   }
 
@@ -323,6 +362,8 @@ class SearchInParts {
   ComponentTable components_;
   DefaultReport report_;
   std::vector<std::unique_ptr<PartSearch>> searches_;
+  std::uint64_t held_ = 0;  // bytes
+  MonitorOfAll monitor_{limits_.monitor, report_.progress};
 };
 
 }  // namespace

@@ -124,6 +124,7 @@ std::optional<std::vector<PartMember>> ComponentTable::members(AutomatonId root,
                                                                PartSide side) {
   const auto parent = protocol_.parent(root);
   const bool is_outside = side == PartSide::Outside;
+  if (network_.automata.size() > limits_.automata) return std::nullopt;
   if (!protocol_.holds() || (is_outside && !parent)) return std::nullopt;
   const AutomatonId middle = is_outside ? *parent : root;
   if (!may_be_component(middle)) return std::nullopt;

@@ -122,6 +122,7 @@ class ComponentTable {
     std::size_t states = 50'000;
     std::size_t edges = 5'000;  // of one automaton
     std::size_t all_states = 400'000;
+    std::size_t automata = 2'000;  // of the network: in a larger one are none
   };
 
   // `shared`: by variable, whether somebody else looks at it. The network must
