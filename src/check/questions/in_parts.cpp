@@ -190,7 +190,7 @@ class PartSearch {
   PartSearch(const BehaviorTree& tree, const CompiledNetwork& whole,
              ComponentTable& components, const Group& group,
              const std::vector<Sighting>& sightings, const Limits& limits,
-             DefaultReport& report)
+             std::uint64_t most_states, DefaultReport& report)
       : parts_(components, standing(whole.network(), group),
                group.asked.of_tree),
         searched_(
@@ -202,7 +202,7 @@ class PartSearch {
     const bool is_small =
         2 * parts_.left_out() >= whole.network().automata.size();
     limits_.max_states =
-        std::min(limits.max_states, is_small ? kMostStatesOfFew : kMostStates);
+        std::min(limits.max_states, is_small ? most_states : kMostStates);
     result_ = search_.run(questions_);
     if (result_.is_complete) questions_.graph.close(search_.store().size());
     reporter_.emplace(searched_, search_, result_.is_complete, whole.network(),
@@ -288,7 +288,7 @@ class SearchInParts {
     report_.reduction = Reduction::Full;
     const Groups groups(tree_, system_.network(), inquiry_.sightings(),
                         together);
-    const bool pays = search(groups.of_roots());
+    const bool pays = answer(groups.of_roots(), groups);
     for (const Group& group : groups.all()) {
       if (pays) answer(group, groups);
     }
@@ -315,17 +315,25 @@ class SearchInParts {
     return std::min(limits_.max_states, kMostStatesInAll);
   }
 
-  void answer(const Group& group, const Groups& groups) {
+  // Of few states if it can be, else by itself. Whether all is known then.
+  bool answer(const Group& group, const Groups& groups) {
     const StopReason before = report_.stopped;
-    if (search(group) || !goes_on()) return;
-    const std::vector<Group> singles = groups.single(group);
-    if (singles.size() < 2) return;
+    const std::size_t known = searches_.size();
+    if (search(group, kMostStates)) return true;
+    if (!goes_on()) return false;
     report_.stopped = before;
-    for (const Group& single : singles) search(single);
+    if (searches_.size() > known) {
+      held_ -= searches_.back()->result().progress.bytes;
+      searches_.pop_back();
+    }
+    const std::vector<Group> singles = groups.single(group);
+    if (singles.size() < 2) return search(group, kMostStatesOfFew);
+    for (const Group& single : singles) answer(single, groups);
+    return report_.stopped == before;
   }
 
   // Whether all that the group asks is known then.
-  bool search(const Group& group) {
+  bool search(const Group& group, std::uint64_t most_states) {
     if (!goes_on()) {
       if (report_.stopped == StopReason::None) {
         report_.stopped = StopReason::MaxStates;
@@ -337,8 +345,9 @@ class SearchInParts {
     few.max_states -= std::min(few.max_states, all.states);
     few.max_bytes -= std::min(few.max_bytes, held_);
     few.monitor = &monitor_;
-    auto made = std::make_unique<PartSearch>(
-        tree_, system_, components_, group, inquiry_.sightings(), few, report_);
+    auto made = std::make_unique<PartSearch>(tree_, system_, components_, group,
+                                             inquiry_.sightings(), few,
+                                             most_states, report_);
     const auto& [stopped, is_complete, progress] = made->result();
     all.states += progress.states;
     all.expanded += progress.expanded;
