@@ -14,7 +14,7 @@
 #include "check/findings/findings.hpp"
 #include "check/findings/judgement.hpp"
 #include "check/questions/earlier.hpp"
-#include "check/questions/in_parts.hpp"
+#include "check/parts/in_parts.hpp"
 #include "check/questions/lint.hpp"
 #include "check/rules_network.hpp"
 #include "check/search/engine.hpp"

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "check/questions/defaults.hpp"
-#include "check/questions/in_parts.hpp"
+#include "check/parts/in_parts.hpp"
 #include "explore/state/step.hpp"
 #include "model/lowering.hpp"
 #include "model/tree_file.hpp"

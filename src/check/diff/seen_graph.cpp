@@ -23,8 +23,7 @@ Reduction exact_reduction(const Network& network) {
 }
 
 SeenGraph::SeenGraph(const AnswerGraph& answers,
-                     std::span<const std::optional<std::uint32_t>> number_of)
-    : answers_(answers) {
+                     std::span<const std::optional<std::uint32_t>> number_of) {
   using Arc = LabelledGraph::Arc;
   std::vector<Arc> between;  // the only step of each further state
   std::map<Arc, std::uint32_t> known;

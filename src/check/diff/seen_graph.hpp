@@ -43,7 +43,7 @@ Reduction exact_reduction(const Network& network);
 
 class SeenGraph {
  public:
-  // `number_of` by node; nothing of what is not watched. All must outlive it.
+  // `number_of` by node; nothing of what is not watched.
   SeenGraph(const AnswerGraph& answers,
             std::span<const std::optional<std::uint32_t>> number_of);
 
@@ -60,7 +60,6 @@ class SeenGraph {
       std::span<const SeenEvent> events) const;
 
  private:
-  const AnswerGraph& answers_;
   LabelledGraph graph_;
   // By arc of the graph, of states of the answers; and whether it is seen, or
   // something else than a free variable moves.

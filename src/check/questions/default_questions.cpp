@@ -7,7 +7,7 @@
 namespace btcheck {
 
 Observed seen_by_default(const BehaviorTree& tree, const Network& network,
-                         const Asked& asked) {
+                         const QuestionsAsked& asked) {
   Observed seen(network);
   if (!asked.of_tree) return seen;
   for (const NodeId root : tree.roots) {
@@ -28,7 +28,7 @@ Observed seen_by_default(const BehaviorTree& tree, const Network& network,
 
 Observed kept_for_default(const BehaviorTree& tree, const Network& network,
                           const std::vector<Sighting>& sightings,
-                          const Asked& asked) {
+                          const QuestionsAsked& asked) {
   Observed kept = seen_by_default(tree, network, asked);
   const auto keep = [&](NodeId node) {
     kept.add(equals(network.node_status[index(node)], NodeStatus::Running));
@@ -51,7 +51,7 @@ Observed kept_for_default(const BehaviorTree& tree, const Network& network,
 DefaultQuestions::DefaultQuestions(const BehaviorTree& tree,
                                    const CompiledNetwork& system,
                                    const std::vector<Sighting>& watched,
-                                   Asked what)
+                                   QuestionsAsked what)
     : asked(std::move(what)),
       nodes(tree.nodes.size()),
       left_running(tree, system),

@@ -26,7 +26,7 @@ using FirstState = std::optional<StateId>;
 using FirstStep = std::optional<FoundStep>;
 
 // Which of the questions a search is for.
-struct Asked {
+struct QuestionsAsked {
   bool of_tree = true;
   bool left_running = true;
   std::vector<bool> nodes = {};      // by NodeId; empty: all
@@ -44,7 +44,7 @@ struct Asked {
 // And where rounds of an unknown number begin, so that such a step is told by
 // itself.
 Observed seen_by_default(const BehaviorTree& tree, const Network& network,
-                         const Asked& asked = {});
+                         const QuestionsAsked& asked = {});
 
 // Beyond that, which nodes run when some other gives control back or is ticked,
 // and what sightings ask. All of them stand below or beside that node, and what
@@ -52,13 +52,14 @@ Observed seen_by_default(const BehaviorTree& tree, const Network& network,
 // need not be seen at once.
 Observed kept_for_default(const BehaviorTree& tree, const Network& network,
                           const std::vector<Sighting>& sightings,
-                          const Asked& asked = {});
+                          const QuestionsAsked& asked = {});
 
 // Watches the edges that fire for the questions of single nodes, the states for
 // those of the tree, and keeps every step for those that need steps twice.
 struct DefaultQuestions : public ReachabilityVisitor {
   DefaultQuestions(const BehaviorTree& tree, const CompiledNetwork& system,
-                   const std::vector<Sighting>& watched, Asked what = {});
+                   const std::vector<Sighting>& watched,
+                   QuestionsAsked what = {});
 
   void passed(StateId from, StateView before, Step step) {
     left_running.passed(from, before, step);
@@ -119,7 +120,7 @@ struct DefaultQuestions : public ReachabilityVisitor {
     return graph.bytes() + (ended.size() + succeeded.size()) / 8 + beside;
   }
 
-  Asked asked;
+  QuestionsAsked asked;
   std::vector<std::array<FirstStep, kNodeQuestionCount>> nodes;
   LeftRunningWatch left_running;
   SightingWatch sightings;

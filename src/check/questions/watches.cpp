@@ -193,8 +193,6 @@ bool may_leave_behind(const Node& node) {
 template <class Found>
 void for_each_way(const BehaviorTree& tree, const Network& network,
                   Found&& found) {
-  // The engine's nodes halt all children when they decide.
-  if (is_engine(tree.profile)) return;
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     if (!is_leaf(tree.nodes[n].type) || !may_run(network, NodeId{n})) continue;
     std::vector<NodeId> way;

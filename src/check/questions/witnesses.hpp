@@ -30,13 +30,15 @@ class Evidence {
   // `first` gives the state or step that the questions have noted. Of the tree:
   template <class First>
   Possibility possibility(First first) const {
-    return told(first, [](const Asked& asked) { return asked.of_tree; });
+    return told(first,
+                [](const QuestionsAsked& asked) { return asked.of_tree; });
   }
   // Of a node:
   template <class First>
   Possibility possibility(NodeId node, First first) const {
-    return told(first,
-                [node](const Asked& asked) { return asked.has_node(node); });
+    return told(first, [node](const QuestionsAsked& asked) {
+      return asked.has_node(node);
+    });
   }
 
   const std::vector<Seen>& seen() const { return seen_; }

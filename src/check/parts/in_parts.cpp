@@ -4,7 +4,7 @@
 // more that stand as they are cost little, and one search, one outside and one
 // walk to the runs do for all. Where such a search grows too large its
 // questions are asked one by one.
-#include "check/questions/in_parts.hpp"
+#include "check/parts/in_parts.hpp"
 
 #include <algorithm>
 #include <map>
@@ -35,7 +35,7 @@ constexpr std::uint64_t kMostStatesInAll = 20'000'000;
 // What is asked in one search, and which nodes have to stand for it.
 struct Group {
   std::vector<NodeId> nodes;
-  Asked asked;
+  QuestionsAsked asked;
 };
 
 // Nodes that stand together: each a part of the tree without gaps.
@@ -94,10 +94,13 @@ class Groups {
     for (std::size_t i = 0; i < sightings.size(); ++i) {
       group_of(nodes_of(sightings[i])).asked.sightings[i] = true;
     }
-    // A watch of its own looks for these wherever their nodes stand.
-    for (std::vector<NodeId>& way : ways_left_running(tree, network)) {
-      std::ranges::sort(way);
-      group_of(way).asked.left_running = true;
+    // A watch of its own looks for these wherever their nodes stand. The nodes
+    // of the engine halt all children when they decide.
+    if (!is_engine(tree.profile)) {
+      for (std::vector<NodeId>& way : ways_left_running(tree, network)) {
+        std::ranges::sort(way);
+        group_of(way).asked.left_running = true;
+      }
     }
     add_largest(apart);
   }
