@@ -13,8 +13,8 @@
 #include "check/doubt.hpp"
 #include "check/findings/findings.hpp"
 #include "check/findings/judgement.hpp"
-#include "check/questions/earlier.hpp"
 #include "check/parts/in_parts.hpp"
+#include "check/questions/earlier.hpp"
 #include "check/questions/lint.hpp"
 #include "check/rules_network.hpp"
 #include "check/search/engine.hpp"
@@ -94,7 +94,6 @@ DefaultReport default_answers(const BehaviorTree& tree,
                               const CompiledNetwork& system,
                               const CheckOptions& options) {
   const std::uint64_t most = options.limits.max_states;
-  const auto search = [](auto&&... how) { return check_defaults(how...); };
   std::optional<DefaultReport> known;
   const auto attempt = [&](auto made, auto... how) {
     try {
@@ -112,7 +111,7 @@ DefaultReport default_answers(const BehaviorTree& tree,
     }
     Limits few = options.limits;
     few.max_states = std::min(most, most_states);
-    attempt(search, reduction, few, Sampling::None, 1U);
+    attempt(check_defaults, reduction, few, Sampling::None, 1U);
     if (known->stopped != StopReason::MaxStates || most <= most_states) {
       return std::move(*known);
     }
@@ -121,8 +120,8 @@ DefaultReport default_answers(const BehaviorTree& tree,
     attempt(check_defaults_in_parts, options.limits, kNodesTogether);
     if (known->stopped != StopReason::MaxStates) return std::move(*known);
   }
-  attempt(search, options.choices.reduction, options.limits, Sampling::WhenLong,
-          options.choices.threads);
+  attempt(check_defaults, options.choices.reduction, options.limits,
+          Sampling::WhenLong, options.choices.threads);
   return std::move(*known);
 }
 

@@ -153,13 +153,9 @@ class Verifier {
     std::vector<bool> met(asked.size(), false);
     bool is_reduced = false;
     for (const std::vector<bool>& together : together_of(asked.size())) {
-      std::vector<StatePredicate> observed;
-      for (std::size_t q = 0; q < asked.size(); ++q) {
-        if (together[q]) observed.push_back(predicates[q]);
-      }
-      const SearchedNetwork searched(system_,
-                                     observed_alone(network(), observed),
-                                     choices_.reduction, in_parts());
+      const SearchedNetwork searched(
+          system_, observed_alone(network(), those_of(predicates, together)),
+          choices_.reduction, in_parts());
       is_reduced = is_reduced || searched.is_reduced();
       const StateAnswers answers =
           search_states(searched.system(), predicates, together, choices_,
@@ -183,6 +179,14 @@ class Verifier {
     std::vector<std::vector<bool>> each(count, std::vector<bool>(count, false));
     for (std::size_t q = 0; q < count; ++q) each[q][q] = true;
     return each;
+  }
+  static std::vector<StatePredicate> those_of(
+      const std::vector<StatePredicate>& all, const std::vector<bool>& asked) {
+    std::vector<StatePredicate> those;
+    for (std::size_t q = 0; q < all.size(); ++q) {
+      if (asked[q]) those.push_back(all[q]);
+    }
+    return those;
   }
   bool in_parts() const { return choices_.parts == PartsUse::Always; }
 
@@ -362,13 +366,9 @@ class Verifier {
     if (where.empty()) return;
     std::vector<bool> unreached(where.size(), false);
     for (const std::vector<bool>& together : together_of(where.size())) {
-      std::vector<StatePredicate> observed;
-      for (std::size_t q = 0; q < where.size(); ++q) {
-        if (together[q]) observed.push_back(where[q]);
-      }
-      const SearchedNetwork searched(system_,
-                                     observed_alone(network(), observed),
-                                     choices_.reduction, in_parts());
+      const SearchedNetwork searched(
+          system_, observed_alone(network(), those_of(where, together)),
+          choices_.reduction, in_parts());
       const StateAnswers answers =
           search_states(searched.system(), where, together, choices_, limits_);
       for (std::size_t q = 0; q < where.size(); ++q) {
@@ -376,10 +376,9 @@ class Verifier {
         unreached[q] = answers.result.is_complete && !answers.met[q];
       }
     }
-    const auto is_unreached = [&](const OpenComparison& comparison) {
+    const auto is_unreached = [&](const OpenComparison& comparison) -> bool {
       for (std::size_t q = 0; q < where.size(); ++q) {
-        if (where[q].expression == comparison.where)
-          return unreached[q] == true;
+        if (where[q].expression == comparison.where) return unreached[q];
       }
       return false;
     };

@@ -17,21 +17,6 @@
 namespace btcheck {
 namespace {
 
-// As HTML, with names in backquotes as code.
-std::string as_html(std::string_view text) {
-  std::string result;
-  bool is_code = false;
-  for (const char c : with_entities(unbroken(harmless(text)))) {
-    if (c != '`') {
-      result += c;
-      continue;
-    }
-    result += is_code ? "</code>" : "<code>";
-    is_code = !is_code;
-  }
-  return is_code ? result + "</code>" : result;
-}
-
 // As many as the style sheet has.
 constexpr std::size_t kHues = 24;
 constexpr int kDepths = 20;
@@ -62,9 +47,9 @@ class PageOfTwo {
         {{"{{title}}", with_entities(unbroken(
                            harmless(fmt::format("{} beside {}", one, other))))},
          {"{{style}}", std::string(kDiffStyle)},
-         {"{{heading}}", as_html(fmt::format("{} beside {}", one, other))},
+         {"{{heading}}", with_code(fmt::format("{} beside {}", one, other))},
          {"{{class}}", std::string(report_.verdict())},
-         {"{{verdict}}", as_html(verdict_text(report_))},
+         {"{{verdict}}", with_code(verdict_text(report_))},
          {"{{run}}", run()},
          {"{{changes}}", changes()},
          {"{{trees}}", tree(0) + tree(1)},
@@ -90,7 +75,7 @@ class PageOfTwo {
   }
 
   static std::string section(std::string_view title, const std::string& body) {
-    return fmt::format("<section><h2>{}</h2>\n{}</section>\n", as_html(title),
+    return fmt::format("<section><h2>{}</h2>\n{}</section>\n", with_code(title),
                        body);
   }
 
@@ -100,13 +85,13 @@ class PageOfTwo {
     std::string text = fmt::format(
         "<table><thead><tr><th scope=\"col\">tick</th><th scope=\"col\">{}</th>"
         "<th scope=\"col\">{}</th></tr></thead>\n<tbody>",
-        as_html(report_.label(0)), as_html(report_.label(1)));
+        with_code(report_.label(0)), with_code(report_.label(1)));
     int tick = 0;
     for (const DiffRow& row : rows) {
       text += fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                           row.differs ? " class=\"differs\"" : "",
                           row.tick == tick ? "" : fmt::format("{}", row.tick),
-                          as_html(row.cells[0]), as_html(row.cells[1]));
+                          with_code(row.cells[0]), with_code(row.cells[1]));
       tick = row.tick;
     }
     return section("What one has and the other has not",
@@ -116,7 +101,7 @@ class PageOfTwo {
   std::string changes() const {
     std::string list;
     const auto add = [&](std::string_view line) {
-      list += fmt::format("<li>{}</li>\n", as_html(line));
+      list += fmt::format("<li>{}</li>\n", with_code(line));
     };
     const std::string partners = partners_text(report_);
     for (std::size_t at = 0; at < partners.size();) {
@@ -136,7 +121,7 @@ class PageOfTwo {
   std::string tree(std::size_t side) const {
     const BehaviorTree& own = diff_.sides[side].tree;
     std::string text = fmt::format("<div><h2>{}</h2>\n<ul class=\"tree\">\n",
-                                   as_html(report_.names[side]));
+                                   with_code(report_.names[side]));
     std::vector<int> depth(own.nodes.size(), 0);
     for (std::uint32_t n = 0; n < own.nodes.size(); ++n) {
       const Node& node = own.nodes[n];
@@ -158,10 +143,10 @@ class PageOfTwo {
           "<span class=\"type\">{}</span><span class=\"number\">{}</span>"
           "</li>\n",
           look, is_otherwise ? " otherwise" : "", data,
-          as_html(stable_name(node)),
-          as_html(node.id.empty() || node.id == node.name
-                      ? type_name(node.type)
-                      : std::string_view(node.id)),
+          with_code(stable_name(node)),
+          with_code(node.id.empty() || node.id == node.name
+                        ? type_name(node.type)
+                        : std::string_view(node.id)),
           is_alone ? "only here" : fmt::format("{}", pair->second + 1));
     }
     return text + "</ul></div>\n";

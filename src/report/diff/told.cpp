@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "check/replay/replay.hpp"
+#include "check/replay/executed.hpp"
 #include "report/formats/reported.hpp"
 #include "report/text/report.hpp"
 #include "report/whatif/words.hpp"
@@ -339,16 +339,8 @@ std::string verdict_text(const DiffReport& report) {
 std::optional<RecordedRun> run_of(const DiffReport& report, std::size_t side) {
   const DiffSide& own = report.diff.sides[side];
   if (own.steps.empty()) return std::nullopt;
-  const NetworkInterpreter interpreter(own.network);
-  Run run;
-  run.initial = interpreter.initial();
-  Valuation state = run.initial;
-  for (const Step& step : own.steps) {
-    auto next = interpreter.taken(state, step);
-    if (!next) return std::nullopt;
-    state = *next;
-    run.steps.push_back({step, std::move(*next)});
-  }
+  const auto run = executed(own.network, own.steps);
+  if (!run) return std::nullopt;
   RunHeading heading;
   heading.property = report.names[side];
   heading.formula = verdict_text(report);
@@ -356,7 +348,7 @@ std::optional<RecordedRun> run_of(const DiffReport& report, std::size_t side) {
   if (report.inputs[side] != nullptr) {
     add_sources(heading, own.tree, *report.inputs[side]);
   }
-  return recorded(own.tree, own.network, run, heading);
+  return recorded(own.tree, own.network, *run, heading);
 }
 
 std::string partners_text(const DiffReport& report) {

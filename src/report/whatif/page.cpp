@@ -30,21 +30,6 @@ std::string_view sign_of(Harm harm) {
   return kSigns[static_cast<std::size_t>(harm)];
 }
 
-// As HTML, with names in backquotes as code.
-std::string marked(std::string_view text) {
-  std::string result;
-  bool is_code = false;
-  for (const char c : with_entities(unbroken(harmless(text)))) {
-    if (c != '`') {
-      result += c;
-      continue;
-    }
-    result += is_code ? "</code>" : "<code>";
-    is_code = !is_code;
-  }
-  return is_code ? result + "</code>" : result;
-}
-
 class HtmlPage {
  public:
   explicit HtmlPage(const WhatIfReport& report)
@@ -58,9 +43,9 @@ class HtmlPage {
         {{"{{title}}", with_entities(title)},
          {"{{style}}", std::string(kWhatIfStyle)},
          {"{{heading}}",
-          marked(fmt::format("{}: what the mission does when something breaks",
-                             tree_.file))},
-         {"{{score}}", marked(score_text(result_.score()))},
+          with_code(fmt::format(
+              "{}: what the mission does when something breaks", tree_.file))},
+         {"{{score}}", with_code(score_text(result_.score()))},
          {"{{about}}", about()},
          {"{{legend}}", legend()},
          {"{{matrix}}", matrix()},
@@ -74,7 +59,7 @@ class HtmlPage {
 
  private:
   static std::string paragraph(std::string_view text) {
-    return fmt::format("<p class=\"about\">{}</p>\n", marked(text));
+    return fmt::format("<p class=\"about\">{}</p>\n", with_code(text));
   }
 
   std::string about() const {
@@ -110,7 +95,7 @@ class HtmlPage {
       const auto harm = static_cast<Harm>(h);
       if (score.of_harm(harm) == 0) continue;
       text += fmt::format("<li>{} {} ({})</li>", sign(harm),
-                          marked(heading_of(harm)), score.of_harm(harm));
+                          with_code(heading_of(harm)), score.of_harm(harm));
     }
     return text;
   }
@@ -134,7 +119,7 @@ class HtmlPage {
     for (const auto& [leaf, of_leaf] : numbers) {
       text += fmt::format("<tr><th scope=\"row\" title=\"{}\">{}</th>",
                           with_entities(harmless(path_name(tree_, leaf))),
-                          marked(name_in_text(tree_, leaf)));
+                          with_code(name_in_text(tree_, leaf)));
       for (const auto& [kind, is_used] : used) {
         const auto found = of_leaf.find(kind);
         text += found == of_leaf.end()
@@ -168,10 +153,10 @@ class HtmlPage {
       text += fmt::format(
           "<tr id=\"row-{}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
           "<td>{}</td><td>{}</td></tr>\n",
-          n, n, field(n), marked(faults_text(tree_, row)),
-          marked(harm_text(tree_, result_, row)),
-          is_noticed ? marked(notice_text(tree_, row)) : "",
-          marked(recovery_text(tree_, row)));
+          n, n, field(n), with_code(faults_text(tree_, row)),
+          with_code(harm_text(tree_, result_, row)),
+          is_noticed ? with_code(notice_text(tree_, row)) : "",
+          with_code(recovery_text(tree_, row)));
     }
     return text + "</tbody></table>";
   }
@@ -180,7 +165,7 @@ class HtmlPage {
     return fmt::format(
         "<section><h2>{}</h2>\n<div class=\"wide\">{}</div>"
         "</section>",
-        marked(title), body);
+        with_code(title), body);
   }
 
   std::string pairs() const {
@@ -198,19 +183,19 @@ class HtmlPage {
       if (cut.sets.empty()) continue;
       const std::vector<std::string> said(cut.sets.size());
       text += fmt::format("<p><b>{}</b></p>\n<ul>",
-                          marked(event_text(result_, cut.event)));
+                          with_code(event_text(result_, cut.event)));
       const auto told = [&](const FaultGroup& group) {
         return fmt::format(
             "{} ({})", names_in_text(tree_, group.leaves, group.leaves.size()),
             kind_words(group.kinds));
       };
       for (const FaultGroup& group : grouped_singles(cut.sets, said)) {
-        text += fmt::format("<li>{}</li>\n", marked(told(group)));
+        text += fmt::format("<li>{}</li>\n", with_code(told(group)));
       }
       for (const PairGroup& group : grouped_pairs(cut.sets, said)) {
-        text +=
-            fmt::format("<li>{} <b>and</b> {}</li>\n",
-                        marked(told(group.first)), marked(told(group.second)));
+        text += fmt::format("<li>{} <b>and</b> {}</li>\n",
+                            with_code(told(group.first)),
+                            with_code(told(group.second)));
       }
       text += "</ul>\n";
     }
@@ -229,8 +214,8 @@ class HtmlPage {
       if (score.total() == 0) continue;
       ++count;
       text += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n",
-                          marked(name_in_text(tree_, part)),
-                          marked(score_text(score)));
+                          with_code(name_in_text(tree_, part)),
+                          with_code(score_text(score)));
     }
     return count == 0 ? "" : section("Part by part", text + "</tbody></table>");
   }

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "check/replay/replay.hpp"
+#include "check/replay/executed.hpp"
 #include "report/whatif/words.hpp"
 #include "trace/run/record.hpp"
 #include "trace/run/shown_text.hpp"
@@ -16,20 +16,12 @@ namespace {
 // The steps of a row, executed; one that ends where it has been before goes
 // round.
 std::optional<Run> executed(const RowNetwork& made, const FaultRow& row) {
-  const NetworkInterpreter interpreter(made.network);
-  Run run;
-  run.initial = interpreter.initial();
-  Valuation state = run.initial;
-  for (const Step& step : row.steps) {
-    auto next = interpreter.taken(state, step);
-    if (!next) return std::nullopt;
-    state = *next;
-    run.steps.push_back({step, std::move(*next)});
-  }
-  if (row.harm != Harm::NeverEnds) return run;
-  for (std::size_t i = 0; i + 1 < run.state_count(); ++i) {
-    if (!(run.state(i) == state)) continue;
-    run.loop = i;
+  std::optional<Run> run = executed(made.network, row.steps);
+  if (!run || row.harm != Harm::NeverEnds) return run;
+  const Valuation& last = run->state(run->steps.size());
+  for (std::size_t i = 0; i + 1 < run->state_count(); ++i) {
+    if (!(run->state(i) == last)) continue;
+    run->loop = i;
     break;
   }
   return run;

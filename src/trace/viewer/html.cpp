@@ -112,4 +112,18 @@ std::string live_page(const RecordedRun& run, std::string packed,
        fmt::format(" nonce=\"{}\"", nonce), std::string(kViewerLive), true});
 }
 
+std::string with_code(std::string_view text) {
+  std::string result;
+  bool is_code = false;
+  for (const char c : with_entities(unbroken(harmless(text)))) {
+    if (c != '`') {
+      result += c;
+      continue;
+    }
+    result += is_code ? "</code>" : "<code>";
+    is_code = !is_code;
+  }
+  return is_code ? result + "</code>" : result;
+}
+
 }  // namespace btcheck

@@ -35,6 +35,8 @@ std::string live_page(const RecordedRun& run, std::string packed,
 // have a gap's name in its source.
 using Gaps = std::vector<std::pair<std::string_view, std::string>>;
 std::string filled(std::string_view form, const Gaps& gaps);
+// A text for a gap, with names in backquotes as code.
+std::string with_code(std::string_view text);
 // Runs of more states are long ones.
 inline constexpr std::size_t kLongRun = 1000;
 
