@@ -11,8 +11,8 @@
 #include <string>
 #include <utility>
 
-#include "check/questions/defaults.hpp"
 #include "check/parts/in_parts.hpp"
+#include "check/questions/defaults.hpp"
 #include "explore/state/step.hpp"
 #include "model/lowering.hpp"
 #include "model/tree_file.hpp"
