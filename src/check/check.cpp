@@ -34,6 +34,9 @@ struct Attempt {
 };
 constexpr Attempt kAttempts[] = {{Reduction::None, 65'536},
                                  {Reduction::Live, 200'000}};
+// Where a tree is this small to a reduced search, one of the whole costs less
+// than many of its parts.
+constexpr std::uint64_t kStatesBeforeParts = 65'536;
 // Beside rules it is one of so many states.
 constexpr std::uint64_t kStatesBesideRules = 30'000;
 
@@ -105,18 +108,21 @@ DefaultReport default_answers(const BehaviorTree& tree,
       known->stopped = stop_reason(spent.spent());
     }
   };
+  // Whether that was all.
+  const auto does = [&](Reduction reduction, std::uint64_t most_states) {
+    Limits few = options.limits;
+    few.max_states = std::min(most, most_states);
+    attempt(check_defaults, reduction, few, Sampling::None, 1U);
+    return known->stopped != StopReason::MaxStates || most <= most_states;
+  };
   for (const auto& [reduction, most_states] : kAttempts) {
     if (!options.wants_shortest || reduction >= options.choices.reduction) {
       continue;
     }
-    Limits few = options.limits;
-    few.max_states = std::min(most, most_states);
-    attempt(check_defaults, reduction, few, Sampling::None, 1U);
-    if (known->stopped != StopReason::MaxStates || most <= most_states) {
-      return std::move(*known);
-    }
+    if (does(reduction, most_states)) return std::move(*known);
   }
-  if (known && options.choices.reduction == Reduction::Full && !options.start) {
+  if (options.choices.reduction == Reduction::Full && !options.start) {
+    if (does(Reduction::Full, kStatesBeforeParts)) return std::move(*known);
     attempt(check_defaults_in_parts, options.limits, kNodesTogether);
     if (known->stopped != StopReason::MaxStates) return std::move(*known);
   }

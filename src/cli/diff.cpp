@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -131,8 +132,13 @@ ExitCode compare_two(const ComparedTree& one, const ComparedTree& other,
   // What is known is told, however long that takes.
   const BudgetScope telling(nullptr);
   Guard::dismiss();
+  std::array<std::string, 2> names = {one.name, other.name};
+  for (std::size_t side = 0; options.against && side < 2; ++side) {
+    names[side] += fmt::format(
+        " ({})", profile_name(compared.value->sides[side].tree.profile));
+  }
   DiffReport report{*compared.value,
-                    {one.name, other.name},
+                    std::move(names),
                     how.caller,
                     how.observe,
                     {&first->inputs.tree, &second->inputs.tree},
@@ -246,21 +252,19 @@ ExitCode compare(const ComparedTree& one, const ComparedTree& other,
 }  // namespace
 
 ExitCode run_diff(const Options& options) {
-  const std::string& revision = options.diff.revision;
   const std::string& input = options.inputs[0];
-  if (revision.empty()) {
-    const std::string& second = options.inputs[1];
-    ComparedTree other{second, options, second};
-    other.options.input = second;
-    return compare({input, options, input}, other, nullptr);
-  }
+  ComparedTree now{options.inputs.back(), options, options.inputs.back()};
+  now.options.input = now.input;
+  if (options.against) now.options.profile = options.against;
+  const std::string& revision = options.diff.revision;
+  if (revision.empty()) return compare({input, options, input}, now, nullptr);
   const auto then = Revision::with(revision, input);
   show(options, then.diagnostics);
   if (!then.value) return ExitCode::BadInput;
   ComparedTree before{then.value->input(), options, revision + ':' + input};
   before.options.input = before.input;
   before.options.roots = {then.value->folder()};
-  return compare(before, {input, options, input}, &*then.value);
+  return compare(before, now, &*then.value);
 }
 
 }  // namespace btcheck

@@ -406,6 +406,9 @@ TEST_CASE("a refusal says what was meant, or where an option belongs") {
       {{"diff", "--git", "main", "a.xml", "b.xml"},
        "--git compares one tree with what it was",
        "btcheck diff --git main TREE.xml"},
+      {{"diff", "a.xml", "b.xml", "--against", "nav2-main"},
+       "--against compares one tree with itself under another profile",
+       "btcheck diff TREE.xml --profile A --against B"},
       {{"diff", "--git=-x", "a.xml"},
        "--git -x: no revision",
        "btcheck diff --git main TREE.xml"},
@@ -596,6 +599,15 @@ TEST_CASE("which trees are compared, and as whom") {
   CHECK(options.diff.outputs[0].format == DiffFormat::Html);
   CHECK(options.diff.outputs[0].file == "d.html");
   CHECK(options.diff.outputs[1].format == DiffFormat::Markdown);
+  const Options profiles =
+      options_of({"diff", "a.xml", "--against", "nav2-main"});
+  CHECK(profiles.inputs == std::vector<std::string>{"a.xml"});
+  CHECK(profiles.against == Profile::Nav2Main);
+  // What is written of a check does not go with another profile.
+  CHECK(options_of(
+            {"diff", "a.xml", "--against", "nav2-main", "--format", "markdown"})
+            .diff.outputs[0]
+            .format == DiffFormat::Markdown);
 }
 
 TEST_CASE("a watch refuses by name what ends, or is kept once") {

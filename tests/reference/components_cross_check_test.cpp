@@ -133,7 +133,8 @@ class Walk {
 
   std::string taken(std::uint32_t edge) {
     const bool is_done = composition_.take(
-        valuation_, edge, [&](std::uint32_t single) { return fire(single); });
+        valuation_, edge, [&](std::uint32_t single) { return fire(single); },
+        standing_);
     return is_done ? ""
                    : "the whole cannot take an edge of " +
                          composition_.network().owner_of_edge(edge).name;
@@ -141,7 +142,8 @@ class Walk {
 
   std::string waited() {
     const bool is_settled = composition_.settle(
-        valuation_, [&](std::uint32_t single) { return fire(single); });
+        valuation_, [&](std::uint32_t single) { return fire(single); },
+        standing_);
     if (!is_settled) return "the whole does not come to rest";
     if (!whole_.may_wait(state_)) return "the whole cannot wait";
     take_over(whole_.waited(state_));
@@ -151,6 +153,7 @@ class Walk {
         fired = fired || fire(edge);
       }
     }
+    standing_.forget();
     return {};
   }
 
@@ -159,6 +162,7 @@ class Walk {
   NaiveNetwork whole_;
   NaiveState state_;
   Valuation valuation_;
+  Standing standing_;
 };
 
 // Of the network with one node as it is, or with all roots.

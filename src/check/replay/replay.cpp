@@ -248,7 +248,7 @@ bool Replayer::is_seen(const StateVector& seen) {
 }
 
 bool Replayer::begin(const StateVector& seen) {
-  state_ = interpreter_.initial();
+  go_on_from(interpreter_.initial());
   steps_ = 0;
   if (is_seen(seen)) return true;
   error_ = "the run does not begin with the initial state";
@@ -273,16 +273,21 @@ ComponentTable::Fire Replayer::firing(const Taken& taken) {
 // Timers inside of components are taken as soon as they can be.
 bool Replayer::take_in_parts(const Step& step, const Taken& taken) {
   const auto fire = firing(taken);
-  if (step.edge != kTimeStep) return parts_->take(state_, step.edge, fire);
-  if (!parts_->settle(state_, fire) || !take_single(step, taken)) return false;
+  if (step.edge != kTimeStep) {
+    return parts_->take(state_, step.edge, fire, standing_);
+  }
+  if (!parts_->settle(state_, fire, standing_) || !take_single(step, taken)) {
+    return false;
+  }
   for (bool fired = true; fired;) {
     fired = std::ranges::any_of(parts_->hidden_timers(), fire);
   }
+  standing_.forget();
   return true;
 }
 
 void Replayer::settle(const Taken& taken) {
-  if (parts_ != nullptr) parts_->settle(state_, firing(taken));
+  if (parts_ != nullptr) parts_->settle(state_, firing(taken), standing_);
 }
 
 bool Replayer::take(const Step& step, const StateVector& seen,

@@ -91,7 +91,10 @@ class Replayer {
   void settle(const Taken& taken);
   const Valuation& state() const { return state_; }
   // Goes on from a state that has been executed before.
-  void go_on_from(Valuation state) { state_ = std::move(state); }
+  void go_on_from(Valuation state) {
+    state_ = std::move(state);
+    standing_.forget();
+  }
   const std::string& error() const { return error_; }
 
  private:
@@ -105,6 +108,7 @@ class Replayer {
   NetworkInterpreter interpreter_;
   const CompiledNetwork& searched_;
   const Composition* parts_;
+  Standing standing_;              // of the parts
   std::vector<bool> is_compared_;  // by VariableId: not forgotten
   StateVector compared_;           // the bits of what is not
   Valuation state_;

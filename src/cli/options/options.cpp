@@ -625,7 +625,7 @@ void settle_roots(const OptionWords& words, Options& options) {
 void settle_against(const OptionWords& words, Options& options) {
   if (options.command == Command::WhatIf) return;
   settle_choice(words, "--against", options.against);
-  if (!options.against) return;
+  if (!options.against || options.command == Command::Diff) return;
   for (const char* name :
        {"--format", "--from", "--trace-dir", "--write-baseline"}) {
     if (!words.has(name)) continue;
@@ -733,13 +733,19 @@ void settle_diff(const OptionWords& words, Options& options) {
     refuse(fmt::format("--git {}: no revision", plan.revision),
            "btcheck diff --git main TREE.xml");
   }
-  const std::size_t wanted = words.has("--git") ? 1 : 2;
-  if (words.inputs.empty() || words.inputs.size() == wanted) return;
-  refuse(wanted == 1 ? "--git compares one tree with what it was"
-                     : fmt::format("diff compares two trees, not {}",
-                                   words.inputs.size()),
-         wanted == 1 ? "btcheck diff --git main TREE.xml"
-                     : "btcheck diff OLD.xml NEW.xml");
+  const std::size_t count = words.inputs.size();
+  const bool is_one_tree = words.has("--git") || words.has("--against");
+  if (count == 0 || count == (is_one_tree ? 1 : 2)) return;
+  if (words.has("--git")) {
+    refuse("--git compares one tree with what it was",
+           "btcheck diff --git main TREE.xml");
+  }
+  if (words.has("--against")) {
+    refuse("--against compares one tree with itself under another profile",
+           "btcheck diff TREE.xml --profile A --against B");
+  }
+  refuse(fmt::format("diff compares two trees, not {}", count),
+         "btcheck diff OLD.xml NEW.xml");
 }
 
 // What a command cannot do without.

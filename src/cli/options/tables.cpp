@@ -180,7 +180,8 @@ constexpr CommandRow kCommands[] = {
          "finds "
          "in one of them only. Leaves are the same by name and place. Two "
          "folders are compared tree by tree; with --git, one tree or folder "
-         "with what it was."},
+         "with what it was; with --against, with itself under another "
+         "profile."},
     {.command = Explain,
      .word = "explain",
      .argument = ArgumentKind::CodeOrRun,
@@ -364,8 +365,9 @@ constexpr OptionRow kOptions[] = {
      .value = "PROFILE",
      .choices = kProfileNames,
      .help = "only what is otherwise under this profile: verdicts, findings, "
-             "and what nodes can do",
-     .commands = {Check},
+             "and what nodes can do; diff: a run that the tree has under one "
+             "alone",
+     .commands = {Check, Command::Diff},
      .example = "btcheck TREE.xml --profile nav2-jazzy --against nav2-lyrical"},
     {.name = "--tick-ms",
      .value = "MILLISECONDS",

@@ -4,17 +4,20 @@
 #include <algorithm>
 #include <utility>
 
+#include "explore/components/cut_part.hpp"
 #include "explore/components/open_part.hpp"
-#include "explore/state/accesses.hpp"
 #include "text/budget.hpp"
 
 namespace btcheck {
 
 ComponentTable::ComponentTable(const Network& network,
-                               const std::vector<bool>& shared, Limits limits)
+                               const std::vector<bool>& shared, Limits limits,
+                               ComponentStore* store)
     : network_(network),
       limits_(limits),
       protocol_(network),
+      accesses_(network),
+      store_(store == nullptr ? own_store_ : *store),
       children_(network.automata.size()),
       timers_(network.automata.size()),
       users_(network.variables.size()) {
@@ -41,13 +44,12 @@ ComponentTable::ComponentTable(const Network& network,
     }
     first_inside_.push_back(first);
   }
-  const Accesses accesses(network);
   for (std::uint32_t v = 0; v < network.variables.size(); ++v) {
     // A fault is everybody's: it ends the run.
     if (shared[v] || network.fault == VariableId{v}) continue;
     std::vector<std::uint32_t>& users = users_[v];
     bool is_alone = true;
-    for (const auto* all : {&accesses.readers[v], &accesses.writers[v]}) {
+    for (const auto* all : {&accesses_.readers[v], &accesses_.writers[v]}) {
       for (const AutomatonId user : *all) {
         // A timer belongs to its node.
         const Automaton& who = network.automaton(user);
@@ -130,7 +132,7 @@ std::optional<std::vector<PartMember>> ComponentTable::members(AutomatonId root,
   if (!may_be_component(middle)) return std::nullopt;
   std::vector<PartMember> all = {{middle, nullptr, PartSide::Inside}};
   const auto add = [&](AutomatonId id, PartSide of_it) {
-    const Component* component = of(id, of_it);
+    const PlacedComponent* component = of(id, of_it);
     if (component != nullptr) all.push_back({id, component, of_it});
     return component != nullptr;
   };
@@ -147,51 +149,123 @@ std::optional<std::vector<PartMember>> ComponentTable::members(AutomatonId root,
   return all;
 }
 
-const Component* ComponentTable::of(AutomatonId root, PartSide side) {
+std::optional<PlacedComponent> ComponentTable::made(
+    AutomatonId root, PartSide side, std::vector<PartMember> members) {
+  const CutPart part(*this, root, side, members);
+  const ContentHash made_of = part.hash();
+  std::optional<ComponentStore::Known> shape = store_.find(made_of);
+  if (!shape) {
+    shape = nullptr;
+    if (auto drawn = OpenPart(part, limits_).take()) {
+      shape = std::make_shared<const Component>(std::move(*drawn));
+    }
+    store_.keep(made_of, *shape);
+  }
+  if (*shape == nullptr) return std::nullopt;
+  return PlacedComponent{
+      std::move(*shape), part.names(), std::move(members), {}};
+}
+
+const PlacedComponent* ComponentTable::of(AutomatonId root, PartSide side) {
   auto& known = known_[static_cast<std::size_t>(side)][index(root)];
   if (!known) {
     // Its members come first; they are not among each other's.
     auto all = members(root, side);
-    std::optional<Component> made;
+    std::optional<PlacedComponent> placed;
     if (all && states_ < limits_.all_states) {
-      made = OpenPart(*this, root, side, std::move(*all)).take();
+      placed = made(root, side, std::move(*all));
     }
-    if (made) states_ += made->size();
-    known = std::move(made);
+    if (placed) states_ += placed->shape->size();
+    known = std::move(placed);
   }
   return known->has_value() ? &**known : nullptr;
 }
 
+const Automaton& ComponentTable::automaton_of(AutomatonId root, PartSide side) {
+  PlacedComponent& placed =
+      known_[static_cast<std::size_t>(side)][index(root)]->value();
+  if (placed.automaton.locations.empty()) {
+    placed.automaton = with_names(placed.shape->automaton, [&](VariableId own) {
+      return placed.name(own);
+    });
+    const Automaton& middle = network_.automaton(placed.members[0].automaton);
+    placed.automaton.name = middle.name;
+    placed.automaton.node = middle.node;
+  }
+  return placed.automaton;
+}
+
+void Standing::forget() {
+  for (const Part& part : known_) {
+    states_[static_cast<std::size_t>(part.side)][index(part.root)].reset();
+  }
+  known_.clear();
+}
+
+void ComponentTable::forget_around(AutomatonId moved,
+                                   Standing& standing) const {
+  std::erase_if(standing.known_, [&](const Standing::Part& part) {
+    const bool is_inside = is_below(moved, part.root);
+    if (is_inside != (part.side == PartSide::Inside)) return false;
+    standing.states_[static_cast<std::size_t>(part.side)][index(part.root)]
+        .reset();
+    return true;
+  });
+}
+
 std::optional<std::uint32_t> ComponentTable::state_of(
-    const Valuation& state, const Component& component) const {
+    const Valuation& state, AutomatonId root, PartSide side,
+    Standing& standing) const {
+  auto& all = standing.states_[static_cast<std::size_t>(side)];
+  if (all.empty()) all.resize(network_.automata.size());
+  auto& number = all[index(root)];
+  if (!number) {
+    number = found_state(state, known(root, side), standing);
+    standing.known_.push_back({root, side});
+  }
+  return *number;
+}
+
+std::optional<std::uint32_t> ComponentTable::found_state(
+    const Valuation& state, const PlacedComponent& component,
+    Standing& standing) const {
   Component::Values own;
-  for (const PartMember& member : component.members_) {
+  for (const PartMember& member : component.members) {
     if (member.component == nullptr) continue;
-    const auto at = place(state, member.automaton, member.side);
+    const auto at = place(state, member.automaton, member.side, standing);
     if (!at) return std::nullopt;
     own.push_back(at->location);
     if (member.side == PartSide::Inside) own.push_back(at->memory);
   }
-  for (std::size_t i = own.size(); i < component.own_.size(); ++i) {
-    const std::size_t id = index(component.own_[i]);
+  const Component& shape = *component.shape;
+  for (std::size_t i = own.size(); i < shape.own_.size(); ++i) {
+    const std::size_t id = index(component.name(shape.own_[i]));
     own.push_back(id < network_.variables.size()
                       ? state.variables[id]
                       : state.clocks[id - variable_count()]);
   }
-  const auto known = component.states_.find(own);
-  if (known == component.states_.end()) return std::nullopt;
+  const auto known = shape.states_.find(own);
+  if (known == shape.states_.end()) return std::nullopt;
   return known->second;
 }
 
-std::optional<Component::Place> ComponentTable::place(const Valuation& state,
-                                                      AutomatonId root,
-                                                      PartSide side) const {
-  const Component& component = known(root, side);
-  const auto number = state_of(state, component);
+std::optional<Component::Place> ComponentTable::place(
+    const Valuation& state, AutomatonId root, PartSide side,
+    Standing& standing) const {
+  const auto number = state_of(state, root, side, standing);
   if (!number) return std::nullopt;
-  const std::uint32_t place = component.place_of_[*number];
+  const Component& shape = *known(root, side).shape;
+  const std::uint32_t place = shape.place_of_[*number];
   if (place == Component::kPassing) return std::nullopt;
-  return component.places_[place];
+  return shape.places_[place];
+}
+
+std::size_t Component::bytes() const {
+  constexpr std::size_t kBytesOfState = 64;  // with its place in the table
+  constexpr std::size_t kBytesOfEdge = 256;
+  return states_.size() * (kBytesOfState + own_.size() * sizeof(int)) +
+         arcs_.size() * sizeof(Arc) + first_.size() * sizeof(first_[0]) +
+         automaton.edges.size() * kBytesOfEdge + sizeof(*this);
 }
 
 // A shortest way from a state to one that stands there, silent but for one step
@@ -233,11 +307,12 @@ std::vector<const Component::Arc*> Component::way(
 }
 
 bool ComponentTable::take(const Valuation& state, AutomatonId root,
-                          PartSide side, std::uint32_t edge,
-                          const Fire& fire) const {
-  const Component& component = known(root, side);
+                          PartSide side, std::uint32_t edge, const Fire& fire,
+                          Standing& standing) const {
+  const PlacedComponent& placed = known(root, side);
+  const Component& component = *placed.shape;
   const Component::Drawn& drawn = component.drawn_[edge];
-  const auto start = state_of(state, component);
+  const auto start = state_of(state, root, side, standing);
   if (!start) return false;
   const auto back_to = [&](std::uint32_t to) {
     return component.way(to, LabelledGraph::kSilent,
@@ -257,20 +332,25 @@ bool ComponentTable::take(const Valuation& state, AutomatonId root,
     const auto round = back_to(steps.back()->target);
     steps.insert(steps.end(), round.begin(), round.end());
   }
-  return !steps.empty() && follow(state, component, steps, fire);
+  return !steps.empty() && follow(state, placed, steps, fire, standing);
 }
 
-bool ComponentTable::follow(const Valuation& state, const Component& component,
+bool ComponentTable::follow(const Valuation& state,
+                            const PlacedComponent& component,
                             const std::vector<const Component::Arc*>& steps,
-                            const Fire& fire) const {
+                            const Fire& fire, Standing& standing) const {
   for (const Component::Arc* step : steps) {
-    const PartMember& member = component.members_[step->member.number];
+    const PartMember& member = component.members[step->member.number];
     const std::uint32_t place = step->member.edge;
-    const bool is_done =
-        member.component == nullptr
-            ? fire(network_.automaton(member.automaton).first_edge + place)
-            : take(state, member.automaton, member.side, place, fire);
-    if (!is_done) return false;
+    if (member.component != nullptr) {
+      if (!take(state, member.automaton, member.side, place, fire, standing)) {
+        return false;
+      }
+      continue;
+    }
+    const Automaton& automaton = network_.automaton(member.automaton);
+    if (!fire(automaton.first_edge + place)) return false;
+    forget_around(member.automaton, standing);
   }
   return true;
 }
@@ -284,9 +364,11 @@ bool Component::is_silent(std::uint32_t state) const {
 // First where no member has anything to do that the part does not see; then
 // what each does by itself.
 bool ComponentTable::settle(const Valuation& state, AutomatonId root,
-                            PartSide side, const Fire& fire) const {
-  const Component& component = known(root, side);
-  const auto start = state_of(state, component);
+                            PartSide side, const Fire& fire,
+                            Standing& standing) const {
+  const PlacedComponent& placed = known(root, side);
+  const Component& component = *placed.shape;
+  const auto start = state_of(state, root, side, standing);
   if (!start) return false;
   if (component.is_silent(*start)) {
     const auto steps =
@@ -294,11 +376,12 @@ bool ComponentTable::settle(const Valuation& state, AutomatonId root,
           return component.place_of_[end] == component.place_of_[*start] &&
                  !component.is_silent(end);
         });
-    if (steps.empty() || !follow(state, component, steps, fire)) return false;
+    if (steps.empty() || !follow(state, placed, steps, fire, standing))
+      return false;
   }
-  return std::ranges::all_of(component.members_, [&](const PartMember& member) {
+  return std::ranges::all_of(placed.members, [&](const PartMember& member) {
     return member.component == nullptr ||
-           settle(state, member.automaton, member.side, fire);
+           settle(state, member.automaton, member.side, fire, standing);
   });
 }
 

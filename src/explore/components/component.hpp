@@ -7,19 +7,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "explore/components/component_store.hpp"
 #include "explore/minimise/partition.hpp"
 #include "explore/reduce/call_protocol.hpp"
+#include "explore/state/accesses.hpp"
 #include "explore/state/valuation.hpp"
 #include "model/automata/network.hpp"
 
 namespace btcheck {
 
-class Component;
+struct PlacedComponent;
 
 // Which part of a network: the subtree of an automaton, or what is outside of
 // it in its tree. The subtree of a root is the whole tree.
@@ -28,7 +31,7 @@ enum class PartSide : std::uint8_t { Inside, Outside };
 // What a part is made of: automata of the network, and components.
 struct PartMember {
   AutomatonId automaton{};
-  const Component* component = nullptr;  // that of this side of it
+  const PlacedComponent* component = nullptr;  // that of this side of it
   PartSide side = PartSide::Inside;
 };
 
@@ -42,6 +45,9 @@ struct PartMember {
 // it goes on silently and in no other way none: what it decides by itself it
 // decides with the step before. In the place of the part, its automaton leaves
 // a network the runs that it had, but for silent steps (docs/reductions.md).
+//
+// Variables have numbers of the part's own here, so that one component stands
+// for all parts that are made alike, in any network.
 class Component {
  public:
   Automaton automaton;
@@ -56,6 +62,11 @@ class Component {
   std::vector<int> later;
   // No time passes while it is called.
   bool is_instant = true;
+  // The variables that the automaton speaks of, its location and memory first;
+  // and all of the above in terms of these. Where both are equal, so is what
+  // the parts do.
+  std::vector<VariableId> spoken_of;
+  ContentHash content;
 
   // A single edge of the part: of one of its members, by its place in that.
   struct Member {
@@ -74,6 +85,7 @@ class Component {
   // States of the part, and what is left of them.
   std::size_t size() const { return place_of_.size(); }
   std::size_t place_count() const { return places_.size(); }
+  std::size_t bytes() const;
 
  private:
   friend class ComponentTable;
@@ -102,7 +114,6 @@ class Component {
     return {arcs_.data() + first_[state], arcs_.data() + first_[state + 1]};
   }
 
-  std::vector<PartMember> members_;
   std::vector<VariableId> own_;  // the variables of its states
   Numbers states_;
   std::vector<std::uint32_t> first_;
@@ -114,7 +125,38 @@ class Component {
   std::vector<Drawn> drawn_;  // by edge of the automaton
 };
 
-// The components of a network, each made when it is asked for first.
+// A component in its network.
+struct PlacedComponent {
+  std::shared_ptr<const Component> shape;
+  std::vector<VariableId> names;  // of the shape's variables, by number
+  std::vector<PartMember> members;
+  // The shape's, with these names, once it has been asked for.
+  Automaton automaton;
+
+  VariableId name(VariableId own) const { return names[index(own)]; }
+};
+
+// Where components stand while a run of the network is followed, as far as it
+// is known: a step changes that of few.
+class Standing {
+ public:
+  // Time has passed, or it is another state altogether.
+  void forget();
+
+ private:
+  friend class ComponentTable;
+
+  struct Part {
+    AutomatonId root{};
+    PartSide side = PartSide::Inside;
+  };
+  // By side and AutomatonId: the number of a component's state, if it has one.
+  std::vector<std::optional<std::optional<std::uint32_t>>> states_[2];
+  std::vector<Part> known_;
+};
+
+// The components of a network, each made when it is asked for first, or taken
+// from those that are known.
 class ComponentTable {
  public:
   using Place = Component::Place;
@@ -125,10 +167,11 @@ class ComponentTable {
     std::size_t automata = 2'000;  // of the network: in a larger one are none
   };
 
-  // `shared`: by variable, whether somebody else looks at it. The network must
-  // outlive this.
+  // `shared`: by variable, whether somebody else looks at it. `store`: what is
+  // asked for components, and told of new ones; null: nobody. Both must outlive
+  // this.
   ComponentTable(const Network& network, const std::vector<bool>& shared,
-                 Limits limits);
+                 Limits limits, ComponentStore* store = nullptr);
   ComponentTable(const ComponentTable&) = delete;
   ComponentTable& operator=(const ComponentTable&) = delete;
 
@@ -140,7 +183,13 @@ class ComponentTable {
   }
   // Null where the part cannot be one, or is too large to be. Outside of a root
   // is nothing.
-  const Component* of(AutomatonId root, PartSide side = PartSide::Inside);
+  const PlacedComponent* of(AutomatonId root, PartSide side = PartSide::Inside);
+  // Of a component that can be one: as it stands in the network.
+  const Automaton& automaton_of(AutomatonId root, PartSide side);
+  // The nodes that touch a variable, in order; none where somebody else does.
+  const std::vector<std::uint32_t>& users_of(VariableId variable) const {
+    return users_[index(variable)];
+  }
   // Whether only this part touches the variable; the calls and answers of the
   // subtree's root are not asked for.
   bool is_only_in(AutomatonId root, PartSide side, VariableId variable) const;
@@ -159,25 +208,25 @@ class ComponentTable {
   // Where the component that stands for a part stands when the network is in a
   // state; nothing where it passes.
   std::optional<Place> place(const Valuation& state, AutomatonId root,
-                             PartSide side = PartSide::Inside) const;
+                             PartSide side, Standing& standing) const;
   // Takes an edge of a component in a state of the network: calls fire(edge)
   // for the single ones that it stands for, one after the other, and each of
   // them has to change the state. False where it cannot be taken.
   using Fire = std::function<bool(std::uint32_t)>;
   bool take(const Valuation& state, AutomatonId root, PartSide side,
-            std::uint32_t edge, const Fire& fire) const;
+            std::uint32_t edge, const Fire& fire, Standing& standing) const;
   // Likewise all that the part does by itself where its component stands: no
   // time passes before.
   bool settle(const Valuation& state, AutomatonId root, PartSide side,
-              const Fire& fire) const;
+              const Fire& fire, Standing& standing) const;
 
  private:
-  friend class OpenPart;
+  friend class CutPart;
 
   // Takes steps of a component's states.
-  bool follow(const Valuation& state, const Component& component,
-              const std::vector<const Component::Arc*>& steps,
-              const Fire& fire) const;
+  bool follow(const Valuation& state, const PlacedComponent& component,
+              const std::vector<const Component::Arc*>& steps, const Fire& fire,
+              Standing& standing) const;
 
   VariableId behind(std::size_t group, AutomatonId automaton) const {
     return VariableId{static_cast<std::uint32_t>(
@@ -188,19 +237,30 @@ class ComponentTable {
   VariableId clock_of(AutomatonId automaton) const {
     return behind(2, automaton);
   }
-  const Component& known(AutomatonId root, PartSide side) const {
+  const PlacedComponent& known(AutomatonId root, PartSide side) const {
     return known_[static_cast<std::size_t>(side)][index(root)]->value();
   }
   // Nothing where one of them cannot be had.
   std::optional<std::vector<PartMember>> members(AutomatonId root,
                                                  PartSide side);
   bool may_be_component(AutomatonId root) const;
+  std::optional<PlacedComponent> made(AutomatonId root, PartSide side,
+                                      std::vector<PartMember> members);
   std::optional<std::uint32_t> state_of(const Valuation& state,
-                                        const Component& component) const;
+                                        AutomatonId root, PartSide side,
+                                        Standing& standing) const;
+  std::optional<std::uint32_t> found_state(const Valuation& state,
+                                           const PlacedComponent& component,
+                                           Standing& standing) const;
+  // Behind a step of an automaton that stands in components.
+  void forget_around(AutomatonId moved, Standing& standing) const;
 
   const Network& network_;
   const Limits limits_;
   const CallProtocol protocol_;
+  const Accesses accesses_;
+  ComponentStore own_store_;
+  ComponentStore& store_;
   std::vector<AutomatonId> roots_;
   std::vector<std::vector<AutomatonId>> children_;  // by AutomatonId
   std::vector<std::uint32_t> first_inside_;  // by AutomatonId: of its subtree
@@ -208,7 +268,7 @@ class ComponentTable {
   // By VariableId: the nodes that touch it, in order; none of a variable that
   // somebody else touches as well.
   std::vector<std::vector<std::uint32_t>> users_;
-  std::vector<std::optional<std::optional<Component>>> known_[2];
+  std::vector<std::optional<std::optional<PlacedComponent>>> known_[2];
   std::size_t states_ = 0;  // of all that are known
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "explore/components/composition.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -52,7 +53,7 @@ Composition::Composition(ComponentTable& components, std::vector<bool> kept,
     : components_(&components),
       network_(frame_of(components.network())),
       is_component_(network_.automata.size(), false),
-      is_inside_(network_.automata.size(), false),
+      stands_in_(network_.automata.size()),
       hidden_(network_.variables.size(), false) {
   const Network& whole = components.network();
   const CallProtocol& protocol = components.protocol();
@@ -81,15 +82,17 @@ Composition::Composition(ComponentTable& components, std::vector<bool> kept,
     if (timer.kind != AutomatonKind::Timer) continue;
     const AutomatonId node = network_.node_automaton[index(timer.node)];
     // The parent of an outside is not in its place any more.
-    if (index(node) < count && !is_inside_[index(node)]) continue;
-    leave_out(AutomatonId{a});
+    if (index(node) < count && !stands_in_[index(node)]) continue;
+    leave_out(AutomatonId{a},
+              index(node) < count ? *stands_in_[index(node)] : *inner_);
     for (std::uint32_t e = 0; e < timer.edges.size(); ++e) {
       hidden_timers_.push_back(timer.first_edge + e);
     }
   }
   for (std::uint32_t a = 0; a < count; ++a) {
-    if (!is_inside_[a]) network_.automata[a] = whole.automata[a];
+    if (!stands_in_[a]) network_.automata[a] = whole.automata[a];
   }
+  hide();
   network_.number_edges();
 }
 
@@ -108,21 +111,29 @@ std::optional<AutomatonId> Composition::lowest_above(
   return lowest;
 }
 
-void Composition::leave_out(AutomatonId automaton) {
-  is_inside_[index(automaton)] = true;
+void Composition::leave_out(AutomatonId automaton, AutomatonId root) {
+  stands_in_[index(automaton)] = root;
   ++left_out_;
 }
 
-// What is inside a component keeps its first value.
-void Composition::hide(AutomatonId root, PartSide side) {
+// What is inside a component, and nobody else touches, keeps its first value;
+// the calls and answers of the subtree's root are seen.
+void Composition::hide() {
   const Network& whole = components_->network();
-  const VariableId status =
-      whole.node_status[index(whole.automaton(root).node)];
   for (std::uint32_t v = 0; v < whole.variables.size(); ++v) {
     const VariableId id{v};
-    const auto& gate = whole.automaton(root).gate;
-    const bool is_seen = gate && (id == status || id == gate);
-    if (is_seen || !components_->is_only_in(root, side, id)) continue;
+    const auto& users = components_->users_of(id);
+    if (users.empty() || !stands_in_[users.front()]) continue;
+    const AutomatonId in = *stands_in_[users.front()];
+    const Automaton& root = whole.automaton(in);
+    const bool is_seen =
+        root.gate &&
+        (id == root.gate || id == whole.node_status[index(root.node)]);
+    const bool is_hidden =
+        !is_seen && std::ranges::all_of(users, [&](std::uint32_t user) {
+          return stands_in_[user] == in;
+        });
+    if (!is_hidden) continue;
     Variable& variable = network_.variables[v];
     variable.min = variable.max = variable.initial;
     hidden_[v] = true;
@@ -131,12 +142,15 @@ void Composition::hide(AutomatonId root, PartSide side) {
 
 // It changes with time: a timer's edges are taken when they are due, before
 // everything else.
-void Composition::add_clock(const Component& component, VariableId location) {
+void Composition::add_clock(AutomatonId root, PartSide side,
+                            VariableId location) {
   if (network_.ticks == TickSemantics::None) return;
+  const Component& component = *components_->of(root, side)->shape;
+  const Automaton& automaton = components_->automaton_of(root, side);
   Automaton clock;
   clock.kind = AutomatonKind::Timer;
-  clock.name = component.automaton.name + "_time";
-  clock.node = component.automaton.node;
+  clock.name = automaton.name + "_time";
+  clock.node = automaton.node;
   clock.location = location;
   for (std::size_t m = 0; m < component.later.size(); ++m) {
     clock.locations.push_back({"place_" + std::to_string(m)});
@@ -151,7 +165,7 @@ void Composition::add_clock(const Component& component, VariableId location) {
 }
 
 bool Composition::place_outside_of(AutomatonId root) {
-  const Component* component = components_->of(root, PartSide::Outside);
+  const PlacedComponent* component = components_->of(root, PartSide::Outside);
   if (component == nullptr) return false;
   const Network& whole = components_->network();
   const AutomatonId tree = components_->root_of(root);
@@ -159,23 +173,23 @@ bool Composition::place_outside_of(AutomatonId root) {
     const bool is_node = whole.automata[a].kind == AutomatonKind::Node;
     if (is_node && components_->is_below(AutomatonId{a}, tree) &&
         !components_->is_below(AutomatonId{a}, root)) {
-      leave_out(AutomatonId{a});
+      leave_out(AutomatonId{a}, root);
     }
   }
-  hide(root, PartSide::Outside);
   inner_ = root;
   outside_ = static_cast<std::uint32_t>(network_.automata.size());
-  network_.automata.push_back(component->automaton);
+  const Automaton& automaton =
+      components_->automaton_of(root, PartSide::Outside);
+  network_.automata.push_back(automaton);
   // Its clock finds it by its node.
-  network_.node_automaton[index(component->automaton.node)] =
-      AutomatonId{outside_};
-  network_.variables[index(component->location_id)] = component->location;
-  add_clock(*component, component->location_id);
+  network_.node_automaton[index(automaton.node)] = AutomatonId{outside_};
+  network_.variables[index(automaton.location)] = component->shape->location;
+  add_clock(root, PartSide::Outside, automaton.location);
   return true;
 }
 
 void Composition::place_below(AutomatonId root, const std::vector<bool>& kept) {
-  const Component* component =
+  const PlacedComponent* component =
       kept[index(root)] ? nullptr : components_->of(root);
   if (component == nullptr) {
     for (const AutomatonId child : components_->children(root)) {
@@ -188,55 +202,60 @@ void Composition::place_below(AutomatonId root, const std::vector<bool>& kept) {
     for (const AutomatonId child : components_->children(inside[next])) {
       inside.push_back(child);
     }
-    leave_out(inside[next]);
+    leave_out(inside[next], root);
   }
-  hide(root, PartSide::Inside);
   is_component_[index(root)] = true;
-  network_.automata[index(root)] = component->automaton;
-  network_.variables[index(component->location_id)] = component->location;
-  network_.variables[index(component->memory_id)] = component->memory;
-  const bool is_called = component->automaton.gate.has_value();
-  add_clock(*component,
-            is_called ? component->memory_id : component->location_id);
+  const Automaton& automaton =
+      components_->automaton_of(root, PartSide::Inside);
+  const Component& shape = *component->shape;
+  const VariableId memory = component->name(shape.memory_id);
+  network_.automata[index(root)] = automaton;
+  network_.variables[index(automaton.location)] = shape.location;
+  network_.variables[index(memory)] = shape.memory;
+  add_clock(root, PartSide::Inside,
+            automaton.gate ? memory : automaton.location);
 }
 
 bool Composition::take(const Valuation& state, std::uint32_t edge,
-                       const ComponentTable::Fire& fire) const {
+                       const ComponentTable::Fire& fire,
+                       Standing& standing) const {
   const Automaton& owner = network_.owner_of_edge(edge);
   const auto number =
       static_cast<std::uint32_t>(&owner - network_.automata.data());
   const Network& whole = components_->network();
   if (inner_ && number == outside_) {
     return components_->take(state, *inner_, PartSide::Outside,
-                             edge - owner.first_edge, fire);
+                             edge - owner.first_edge, fire, standing);
   }
   if (number >= whole.automata.size()) return true;  // a clock
   const std::uint32_t place = edge - owner.first_edge;
   return is_component_[number]
              ? components_->take(state, AutomatonId{number}, PartSide::Inside,
-                                 place, fire)
+                                 place, fire, standing)
              : fire(whole.automata[number].first_edge + place);
 }
 
 bool Composition::settle(const Valuation& state,
-                         const ComponentTable::Fire& fire) const {
+                         const ComponentTable::Fire& fire,
+                         Standing& standing) const {
   const auto& fault = components_->network().fault;
   if (fault && state.variables[index(*fault)] != 0) return true;
   for (std::uint32_t a = 0; a < is_component_.size(); ++a) {
     const bool is_settled =
         !is_component_[a] ||
-        components_->settle(state, AutomatonId{a}, PartSide::Inside, fire);
+        components_->settle(state, AutomatonId{a}, PartSide::Inside, fire,
+                            standing);
     if (!is_settled) return false;
   }
   return !inner_ ||
-         components_->settle(state, *inner_, PartSide::Outside, fire);
+         components_->settle(state, *inner_, PartSide::Outside, fire, standing);
 }
 
 std::optional<std::uint32_t> Composition::edge_here(std::uint32_t whole) const {
   const Automaton& owner = components_->network().owner_of_edge(whole);
   const auto number =
       static_cast<std::size_t>(&owner - components_->network().automata.data());
-  if (is_inside_[number]) return std::nullopt;
+  if (stands_in_[number]) return std::nullopt;
   return network_.automata[number].first_edge + (whole - owner.first_edge);
 }
 

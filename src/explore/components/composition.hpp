@@ -32,15 +32,16 @@ class Composition {
   const std::vector<bool>& hidden() const { return hidden_; }
   // An automaton of the whole stands as it is.
   bool stands(AutomatonId automaton) const {
-    return !is_inside_[index(automaton)];
+    return !stands_in_[index(automaton)];
   }
 
   // Takes an edge of this network in a state of the whole one; see
   // ComponentTable::take.
   bool take(const Valuation& state, std::uint32_t edge,
-            const ComponentTable::Fire& fire) const;
+            const ComponentTable::Fire& fire, Standing& standing) const;
   // To be called before time passes: see ComponentTable::settle.
-  bool settle(const Valuation& state, const ComponentTable::Fire& fire) const;
+  bool settle(const Valuation& state, const ComponentTable::Fire& fire,
+              Standing& standing) const;
   // Edges of timers of the whole network that stand in components: they are
   // taken as soon as they can be.
   const std::vector<std::uint32_t>& hidden_timers() const {
@@ -51,16 +52,17 @@ class Composition {
 
  private:
   std::optional<AutomatonId> lowest_above(const std::vector<bool>& kept) const;
-  void leave_out(AutomatonId automaton);
-  void hide(AutomatonId root, PartSide side);
+  void leave_out(AutomatonId automaton, AutomatonId root);
+  void hide();
   void place_below(AutomatonId root, const std::vector<bool>& kept);
   bool place_outside_of(AutomatonId root);
-  void add_clock(const Component& component, VariableId location);
+  void add_clock(AutomatonId root, PartSide side, VariableId location);
 
   ComponentTable* components_;
   Network network_;
-  std::vector<bool> is_component_;    // by AutomatonId
-  std::vector<bool> is_inside_;       // by AutomatonId: in one, or one
+  std::vector<bool> is_component_;  // by AutomatonId
+  // By AutomatonId: the root of the component that it stands in, or is.
+  std::vector<std::optional<AutomatonId>> stands_in_;
   std::optional<AutomatonId> inner_;  // all that is outside of it is left out
   std::uint32_t outside_ = 0;         // that is this automaton then
   std::vector<bool> hidden_;

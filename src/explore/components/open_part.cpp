@@ -13,7 +13,6 @@
 #include <deque>
 
 #include "explore/components/residual.hpp"
-#include "explore/state/accesses.hpp"
 #include "text/budget.hpp"
 
 namespace btcheck {
@@ -29,25 +28,19 @@ void append(std::vector<std::int32_t>& key, const Expression& expression) {
 
 }  // namespace
 
-OpenPart::OpenPart(const ComponentTable& all, AutomatonId root, PartSide side,
-                   std::vector<PartMember> members)
-    : all_(all),
-      root_(root),
-      side_(side),
-      members_(std::move(members)),
-      automaton_(all.network_.automaton(members_[0].automaton)),
-      timers_(all.timers_[index(members_[0].automaton)]),
-      is_called_(side == PartSide::Inside && all.protocol_.parent(root)),
-      status_(
-          all.network_.node_status[index(all.network_.automaton(root).node)]),
-      gate_(all.network_.automaton(root).gate),
-      place_of_(all.variable_count() + all.network_.automata.size(), -1) {
-  collect_own();
-  collect_changes();
-}
-
-const Automaton& OpenPart::automaton_of(const PartMember& member) const {
-  return member.component == nullptr ? automaton_ : member.component->automaton;
+OpenPart::OpenPart(const CutPart& part, const ComponentTable::Limits& limits)
+    : part_(part),
+      limits_(limits),
+      members_(part.members()),
+      timers_(part.timers()),
+      automaton_(members_[0].automaton),
+      is_called_(part.is_called()),
+      status_(part.status()),
+      gate_(part.gate()),
+      place_of_(part.names().size(), -1) {
+  for (std::size_t i = 0; i < part.own().size(); ++i) {
+    place_of_[index(part.own()[i])] = static_cast<int>(i);
+  }
 }
 
 std::optional<std::size_t> OpenPart::own(VariableId variable) const {
@@ -56,67 +49,11 @@ std::optional<std::size_t> OpenPart::own(VariableId variable) const {
                    : std::optional(static_cast<std::size_t>(place));
 }
 
-void OpenPart::collect_own() {
-  const auto add = [&](VariableId id, const Variable& range) {
-    place_of_[index(id)] = static_cast<int>(own_.size());
-    own_.push_back(id);
-    ranges_.push_back(range);
-  };
-  for (const PartMember& member : members_) {
-    if (member.component == nullptr) continue;
-    add(member.component->location_id, member.component->location);
-    if (member.side == PartSide::Inside) {
-      add(member.component->memory_id, member.component->memory);
-    }
-  }
-  for (std::uint32_t v = 0; v < network().variables.size(); ++v) {
-    const VariableId id{v};
-    if (gate_ && (id == status_ || id == gate_)) continue;
-    if (!all_.is_only_in(root_, side_, id)) continue;
-    const bool is_hidden =
-        std::ranges::any_of(members_, [&](const PartMember& member) {
-          return member.component != nullptr &&
-                 all_.is_only_in(member.automaton, member.side, id);
-        });
-    if (!is_hidden) add(id, network().variables[v]);
-  }
-  const auto add_clock = [&](AutomatonId id) {
-    Variable clock;
-    for (const Edge& edge : network().automaton(id).edges) {
-      clock.max = std::max(clock.max, edge.when.greatest_clock());
-    }
-    if (clock.max > 0) add(all_.clock_of(id), clock);
-  };
-  add_clock(members_[0].automaton);
-  for (const AutomatonId timer : timers_) add_clock(timer);
-}
-
-void OpenPart::collect_changes() {
-  const Variable& range = network().variable(status_);
-  for (std::uint32_t a = 0; a < network().automata.size(); ++a) {
-    const bool is_inside = all_.is_below(AutomatonId{a}, root_);
-    if (is_inside == (side_ == PartSide::Inside)) continue;
-    for (const Edge& edge : network().automata[a].edges) {
-      for (const Assignment& update : edge.updates) {
-        if (update.variable != status_) continue;
-        const auto value = constant_value(update);
-        for (int to = range.min; to <= range.max; ++to) {
-          if (value && *value != to) continue;
-          for (int from = range.min; from <= range.max; ++from) {
-            if (excludes(edge.guard, status_, from)) continue;
-            changes_.emplace(from, to);
-          }
-        }
-      }
-    }
-  }
-}
-
 std::optional<std::uint32_t> OpenPart::state_number(Values values) {
   const auto [known, is_new] =
       numbers_.try_emplace(values, static_cast<std::uint32_t>(states_.size()));
   if (is_new) {
-    if (states_.size() >= all_.limits_.states) return std::nullopt;
+    if (states_.size() >= limits_.states) return std::nullopt;
     states_.push_back({std::move(values), {}, false, {}});
   }
   return known->second;
@@ -124,10 +61,9 @@ std::optional<std::uint32_t> OpenPart::state_number(Values values) {
 
 // Steps that nobody notices have label 0.
 std::uint32_t OpenPart::label_number(Label label) {
-  const bool is_untimed = network().ticks == TickSemantics::None;
   const bool is_silent = is_always(label.guard) && label.updates.empty() &&
                          !label.is_like_time &&
-                         (is_untimed || label.when.is_urgent());
+                         (!is_timed() || label.when.is_urgent());
   if (is_silent) return LabelledGraph::kSilent;
   std::vector<std::int32_t> key = {label.when.lower, label.when.upper,
                                    label.is_like_time};
@@ -145,7 +81,7 @@ std::uint32_t OpenPart::label_number(Label label) {
 bool OpenPart::expand(std::uint32_t state) {
   states_[state].is_expanded = true;
   for (std::uint32_t number = 0; number < members_.size(); ++number) {
-    const Automaton& moving = automaton_of(members_[number]);
+    const Automaton& moving = members_[number].automaton;
     const auto value_of = [&](VariableId variable) {
       return states_[state].values[*own(variable)];
     };
@@ -153,7 +89,7 @@ bool OpenPart::expand(std::uint32_t state) {
     const bool is_closed =
         moving.gate && moving.gate != gate_ && value_of(*moving.gate) == 0;
     if (is_closed) continue;
-    const Variable& location = ranges_[*own(moving.location)];
+    const Variable& location = range_of(moving.location);
     const LocationId here{
         static_cast<std::uint32_t>(value_of(moving.location) - location.min)};
     for (std::uint32_t e = 0; e < moving.edges.size(); ++e) {
@@ -167,11 +103,10 @@ bool OpenPart::expand(std::uint32_t state) {
 // A variable of others whose value the part keeps is told apart by it.
 bool OpenPart::expand(std::uint32_t state, Component::Member which) {
   ask_budget();
-  const Edge& edge = automaton_of(members_[which.number]).edges[which.edge];
+  const Edge& edge = members_[which.number].automaton.edges[which.edge];
   Interval when = edge.when;
-  if (when.needs_clock() && network().ticks != TickSemantics::None) {
-    const int clock =
-        states_[state].values[*own(all_.clock_of(members_[0].automaton))];
+  if (when.needs_clock() && is_timed()) {
+    const int clock = states_[state].values[*own(*members_[0].clock)];
     if (clock < when.lower) return true;
     when = clock == when.upper ? kAtOnce : kAnyTime;
   }
@@ -192,15 +127,15 @@ bool OpenPart::expand(std::uint32_t state, Component::Member which) {
   }
   std::uint64_t count = 1;
   for (const VariableId each : kept) {
-    if (index(each) >= network().variables.size()) return false;
-    count *= static_cast<std::uint64_t>(network().variable(each).domain_size());
+    if (part_.is_behind(each)) return false;
+    count *= static_cast<std::uint64_t>(range_of(each).domain_size());
     if (count > kMostRead) return false;
   }
   for (std::uint64_t n = 0; n < count; ++n) {
     std::vector<std::pair<VariableId, int>> read;
     std::uint64_t rest = n;
     for (const VariableId each : kept) {
-      const Variable& range = network().variable(each);
+      const Variable& range = range_of(each);
       const auto size = static_cast<std::uint64_t>(range.domain_size());
       read.emplace_back(each, range.min + static_cast<int>(rest % size));
       rest /= size;
@@ -213,12 +148,12 @@ bool OpenPart::expand(std::uint32_t state, Component::Member which) {
 bool OpenPart::add_arc(std::uint32_t state, Component::Member which,
                        const Interval& when,
                        const std::vector<std::pair<VariableId, int>>& read) {
-  const PartMember& member = members_[which.number];
-  const Edge& edge = automaton_of(member).edges[which.edge];
+  const CutPart::Moving& member = members_[which.number];
+  const Edge& edge = member.automaton.edges[which.edge];
   Values values = states_[state].values;
   const KnownValue known =
       [&](VariableId variable) -> std::optional<std::int64_t> {
-    if (variable == gate_ && side_ == PartSide::Inside) return 1;
+    if (variable == gate_ && part_.side() == PartSide::Inside) return 1;
     if (const auto place = own(variable)) return values[*place];
     return std::nullopt;
   };
@@ -238,14 +173,14 @@ bool OpenPart::add_arc(std::uint32_t state, Component::Member which,
   for (const auto& [variable, value] : read) {
     label.guard = both(std::move(label.guard), equals(variable, value));
   }
-  const auto put = [&](std::size_t place, std::int64_t value) {
-    const Variable& range = ranges_[place];
+  const auto put = [&](VariableId id, std::int64_t value) {
+    const Variable& range = range_of(id);
     if (value < range.min || value > range.max) return false;
-    values[place] = static_cast<int>(value);
+    values[*own(id)] = static_cast<int>(value);
     return true;
   };
-  const auto start_clock = [&](AutomatonId id) {
-    if (const auto clock = own(all_.clock_of(id))) values[*clock] = 0;
+  const auto start_clock = [&](const CutPart::Moving& moving) {
+    if (moving.clock) values[*own(*moving.clock)] = 0;
   };
   for (const Assignment& update : edge.updates) {
     const auto place = own(update.variable);
@@ -256,18 +191,19 @@ bool OpenPart::add_arc(std::uint32_t state, Component::Member which,
     }
     const auto constant = value.is_true() ? std::optional<std::int32_t>(1)
                                           : value.only(Operation::Constant);
-    if (!constant || !put(*place, *constant)) return false;
-    for (const AutomatonId timer : timers_) {
-      if (network().automaton(timer).location == update.variable) {
+    if (!constant || !put(update.variable, *constant)) return false;
+    for (const CutPart::Moving& timer : timers_) {
+      if (timer.automaton.location == update.variable) {
         start_clock(timer);
       }
     }
   }
-  const std::size_t place = *own(automaton_of(member).location);
-  if (!put(place, ranges_[place].min + static_cast<int>(index(edge.target)))) {
+  const VariableId location = member.automaton.location;
+  if (!put(location,
+           range_of(location).min + static_cast<int>(index(edge.target)))) {
     return false;
   }
-  if (member.component == nullptr) start_clock(member.automaton);
+  start_clock(member);
   const auto target = state_number(std::move(values));
   if (!target) return false;
   const Arc arc{label_number(std::move(label)), *target, which, false};
@@ -276,45 +212,43 @@ bool OpenPart::add_arc(std::uint32_t state, Component::Member which,
 }
 
 bool OpenPart::is_at_rest(const Values& values) const {
-  const std::size_t location = *own(automaton_.location);
-  return is_called_ && values[location] == ranges_[location].min;
+  return is_called_ &&
+         values[*own(automaton_.location)] == range_of(automaton_.location).min;
 }
 
 // Components move on by their own tables; timers that have counted so far are
 // due at once, before anything else happens.
 std::optional<Component::Values> OpenPart::later(Values values) const {
-  for (const PartMember& member : members_) {
-    if (member.component == nullptr) continue;
-    const Component& component = *member.component;
-    int& stands_at =
-        values[*own(member.side == PartSide::Inside ? component.memory_id
-                                                    : component.location_id)];
-    stands_at = component.later[static_cast<std::size_t>(stands_at)];
+  for (const CutPart::Moving& member : members_) {
+    if (member.shape == nullptr) continue;
+    int& stands_at = values[*own(member.side == PartSide::Inside
+                                     ? member.memory
+                                     : member.automaton.location)];
+    stands_at = member.shape->later[static_cast<std::size_t>(stands_at)];
   }
-  const auto count = [&](AutomatonId id, bool is_timer) {
-    const Automaton& counting = network().automaton(id);
-    const auto clock = own(all_.clock_of(id));
-    if (!clock) return true;
-    const std::size_t place = *own(counting.location);
+  const auto count = [&](const CutPart::Moving& moving, bool is_timer) {
+    const Automaton& counting = moving.automaton;
+    if (!moving.clock) return true;
+    int& clock = values[*own(*moving.clock)];
+    int& location = values[*own(counting.location)];
+    const int first = range_of(counting.location).min;
     const Edge* due = nullptr;
     int greatest = 0;
     for (const Edge& edge : counting.edges) {
-      const int source =
-          ranges_[place].min + static_cast<int>(index(edge.source));
-      if (values[place] != source) continue;
+      if (location != first + static_cast<int>(index(edge.source))) continue;
       greatest = std::max(greatest, edge.when.greatest_clock());
-      if (!is_timer || values[*clock] + 1 != edge.when.upper) continue;
+      if (!is_timer || clock + 1 != edge.when.upper) continue;
       if (due != nullptr) return false;
       due = &edge;
     }
-    if (values[*clock] < greatest) ++values[*clock];
+    if (clock < greatest) ++clock;
     if (due == nullptr) return true;
-    values[place] = ranges_[place].min + static_cast<int>(index(due->target));
-    values[*clock] = 0;
+    location = first + static_cast<int>(index(due->target));
+    clock = 0;
     return true;
   };
-  bool is_known = count(members_[0].automaton, false);
-  for (const AutomatonId timer : timers_) {
+  bool is_known = count(members_[0], false);
+  for (const CutPart::Moving& timer : timers_) {
     is_known = is_known && count(timer, true);
   }
   return is_known ? std::optional(std::move(values)) : std::nullopt;
@@ -325,18 +259,18 @@ template <class Found>
 void OpenPart::for_each_change(const Call& call, const Values& values,
                                Found found) const {
   const bool may_change =
-      side_ == PartSide::Inside ? is_at_rest(values) : call.is_called;
+      part_.side() == PartSide::Inside ? is_at_rest(values) : call.is_called;
   if (!may_change) return;
-  for (const auto& [from, to] : changes_) {
+  for (const auto& [from, to] : part_.changes()) {
     if (from == call.status) found(Call{to, call.is_called});
   }
-  if (side_ == PartSide::Outside) found(Call{call.status, false});
+  if (part_.side() == PartSide::Outside) found(Call{call.status, false});
 }
 
 // Beside each state the calls are followed that lead to it.
 bool OpenPart::explore() {
-  const Variable& range = network().variable(status_);
-  const bool is_inside = side_ == PartSide::Inside;
+  const Variable& range = range_of(status_);
+  const bool is_inside = part_.side() == PartSide::Inside;
   const std::size_t calls = 2 * static_cast<std::size_t>(range.domain_size());
   std::vector<bool> seen;
   std::deque<std::pair<std::uint32_t, Call>> open;
@@ -350,13 +284,12 @@ bool OpenPart::explore() {
     open.emplace_back(state, call);
   };
   Values initial;
-  for (const Variable& each : ranges_) initial.push_back(each.initial);
+  for (const VariableId each : part_.own()) {
+    initial.push_back(range_of(each).initial);
+  }
   const auto first = state_number(std::move(initial));
   if (!first) return false;
   found(*first, {range.initial, false});
-  const bool is_timed = network().ticks != TickSemantics::None;
-  const bool waits_instantly =
-      !is_inside && all_.known(root_, PartSide::Inside).is_instant;
   while (!open.empty()) {
     const auto [state, call] = open.front();
     open.pop_front();
@@ -402,10 +335,10 @@ bool OpenPart::explore() {
         found(arc.target, {each, after.is_called});
       }
     }
-    if (!is_timed) continue;
+    if (!is_timed()) continue;
     // In a subtree that is called, time may pass where it changes nothing.
     const bool waits =
-        !rests && !is_urgent && !(call.is_called && waits_instantly);
+        !rests && !is_urgent && !(call.is_called && part_.waits_instantly());
     if (!rests && !waits) continue;
     auto values = later(states_[state].values);
     if (!values) return false;
@@ -533,15 +466,80 @@ Minimal minimal(const LabelledGraph& graph, std::uint32_t time) {
   return made;
 }
 
+// Numbers the states as a breadth-first search finds them that takes steps in
+// the order of their labels' ranks: so graphs that differ in nothing else
+// mostly become the same.
+void put_in_order(Minimal& small, const std::vector<std::uint32_t>& rank) {
+  const auto count = static_cast<std::uint32_t>(small.graph.size());
+  std::vector<std::uint32_t> place(count, kPassing);
+  std::vector<std::uint32_t> order;
+  const auto add = [&](std::uint32_t state) {
+    if (place[state] != kPassing) return;
+    place[state] = static_cast<std::uint32_t>(order.size());
+    order.push_back(state);
+  };
+  add(small.state_of[0]);
+  LabelledGraph ordered;
+  std::vector<LabelledGraph::Arc> arcs;
+  for (std::uint32_t next = 0; next < count; ++next) {
+    for (std::uint32_t s = 0; order.size() == next; ++s) add(s);
+    const auto all = small.graph.arcs(order[next]);
+    arcs.assign(all.begin(), all.end());
+    std::ranges::stable_sort(arcs, {}, [&](const LabelledGraph::Arc& arc) {
+      return std::pair(rank[arc.label], place[arc.target]);
+    });
+    for (LabelledGraph::Arc& arc : arcs) {
+      add(arc.target);
+      arc.target = place[arc.target];
+    }
+    ordered.add_state(arcs);
+  }
+  small.graph = std::move(ordered);
+  for (std::uint32_t& state : small.state_of) {
+    if (state != kPassing) state = place[state];
+  }
+}
+
+// What a part that contains it can know of it.
+void tell_content(Component& made) {
+  std::vector<std::int32_t> content;
+  for (const Variable* each : {&made.location, &made.memory}) {
+    content.insert(content.end(), {each->min, each->max, each->initial});
+  }
+  content.push_back(made.is_instant);
+  content.push_back(static_cast<std::int32_t>(made.later.size()));
+  content.insert(content.end(), made.later.begin(), made.later.end());
+  made.spoken_of = {made.location_id, made.memory_id};
+  append(
+      made.automaton,
+      [&](VariableId each) {
+        const auto known = std::ranges::find(made.spoken_of, each);
+        const auto number = known - made.spoken_of.begin();
+        if (known == made.spoken_of.end()) made.spoken_of.push_back(each);
+        return VariableId{static_cast<std::uint32_t>(number)};
+      },
+      content);
+  made.content = hash_of(content);
+}
+
 }  // namespace
+
+// By label: its place among all of the part, whatever it was found by.
+std::vector<std::uint32_t> OpenPart::ranks() const {
+  std::vector<std::uint32_t> ranks = {0, kQuiet, kTime};
+  ranks.resize(kFirstLabel + labels_.size());
+  std::uint32_t next = kFirstLabel;
+  for (const auto& [content, label] : label_numbers_) ranks[label] = next++;
+  return ranks;
+}
 
 std::optional<Component> OpenPart::drawn() {
   Component made;
   made.is_instant = is_instant_;
-  made.memory_id = all_.memory_of(root_);
-  made.location_id =
-      side_ == PartSide::Inside ? automaton_.location : all_.outside_of(root_);
+  made.memory_id = part_.memory();
+  made.location_id = part_.location();
   Minimal small = minimal(graph(), kTime);
+  put_in_order(small, ranks());
   const auto count = static_cast<std::uint32_t>(small.graph.size());
   std::vector<bool> is_rest(count, false);
   for (std::uint32_t s = 0; s < states_.size(); ++s) {
@@ -550,8 +548,6 @@ std::optional<Component> OpenPart::drawn() {
   }
   Automaton& automaton = made.automaton;
   automaton.kind = AutomatonKind::Node;
-  automaton.name = automaton_.name;
-  automaton.node = automaton_.node;
   automaton.location = made.location_id;
   if (is_called_) {
     automaton.gate = gate_;
@@ -592,7 +588,7 @@ std::optional<Component> OpenPart::drawn() {
         made.later[static_cast<std::size_t>(in_time(from))] = in_time(to);
       }
       if (arc.label == kQuiet || arc.label == kTime) continue;
-      if (automaton.edges.size() >= all_.limits_.edges) return std::nullopt;
+      if (automaton.edges.size() >= limits_.edges) return std::nullopt;
       Edge edge;
       edge.source = LocationId{static_cast<std::uint32_t>(from.location)};
       edge.target = LocationId{static_cast<std::uint32_t>(to.location)};
@@ -624,8 +620,8 @@ std::optional<Component> OpenPart::drawn() {
   const bool is_timeless = std::ranges::all_of(
       made.later, [m = 0](int to) mutable { return to == m++; });
   if (is_called_ && is_timeless) automaton.locals = {made.memory_id};
-  made.members_ = members_;
-  made.own_ = own_;
+  tell_content(made);
+  made.own_ = part_.own();
   made.place_of_ = std::move(small.state_of);
   made.first_.push_back(0);
   for (const State& state : states_) {

@@ -5,11 +5,11 @@
 
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
 #include "explore/components/component.hpp"
+#include "explore/components/cut_part.hpp"
 
 namespace btcheck {
 
@@ -17,8 +17,8 @@ namespace btcheck {
 // its own.
 class OpenPart {
  public:
-  OpenPart(const ComponentTable& all, AutomatonId root, PartSide side,
-           std::vector<PartMember> members);
+  // The part must outlive this.
+  OpenPart(const CutPart& part, const ComponentTable::Limits& limits);
 
   // Nothing where it cannot be told, or grows beyond the limits.
   std::optional<Component> take() &&;
@@ -59,11 +59,11 @@ class OpenPart {
   static constexpr std::uint32_t kFirstLabel = 3;
   static constexpr std::uint64_t kMostRead = 64;
 
-  const Network& network() const { return all_.network_; }
-  const Automaton& automaton_of(const PartMember& member) const;
+  const Variable& range_of(VariableId id) const {
+    return part_.variables()[index(id)];
+  }
+  bool is_timed() const { return part_.ticks() != TickSemantics::None; }
   std::optional<std::size_t> own(VariableId variable) const;
-  void collect_own();
-  void collect_changes();
   std::optional<std::uint32_t> state_number(Values values);
   std::uint32_t label_number(Label label);
   bool expand(std::uint32_t state);
@@ -81,22 +81,18 @@ class OpenPart {
                        Found found) const;
   bool explore();
   LabelledGraph graph() const;
+  std::vector<std::uint32_t> ranks() const;
   std::optional<Component> drawn();
 
-  const ComponentTable& all_;
-  const AutomatonId root_;
-  const PartSide side_;
-  const std::vector<PartMember> members_;
+  const CutPart& part_;
+  const ComponentTable::Limits limits_;
+  const std::vector<CutPart::Moving> members_;
+  const std::vector<CutPart::Moving> timers_;
   const Automaton& automaton_;  // of the member that is no component
-  const std::vector<AutomatonId>& timers_;  // its own
-  const bool is_called_;                    // by a node that stands outside
+  const bool is_called_;        // by a node that stands outside
   const VariableId status_;
   const std::optional<VariableId> gate_;
-  std::vector<VariableId> own_;
-  std::vector<int> place_of_;     // by VariableId: in own_, or -1
-  std::vector<Variable> ranges_;  // of own_
-  // Of the rest, between two statuses.
-  std::set<std::pair<int, int>> changes_;
+  std::vector<int> place_of_;  // by number: in part_.own(), or -1
   std::vector<State> states_;
   Component::Numbers numbers_;
   std::vector<Label> labels_;  // from kFirstLabel on

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+//
+// Components that are known, by what they are made of.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <unordered_map>
+
+namespace btcheck {
+
+class Component;
+
+// What stands for a content: 128 bits of XXH3. Two contents of one hash would
+// be taken for the same; of 10^12 that is one chance in 10^14.
+struct ContentHash {
+  std::uint64_t low = 0;
+  std::uint64_t high = 0;
+
+  friend bool operator==(const ContentHash&, const ContentHash&) = default;
+};
+ContentHash hash_of(std::span<const std::int32_t> content);
+
+// Any number of threads may use it. It holds what was used last: once there is
+// more than half of its most, what has not been asked for since that was so
+// last is forgotten.
+class ComponentStore {
+ public:
+  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;
+
+  explicit ComponentStore(std::size_t most_bytes = kMostBytes)
+      : most_bytes_(most_bytes) {}
+
+  // Nothing where it is not known; null where none can be made of that.
+  using Known = std::shared_ptr<const Component>;
+  std::optional<Known> find(const ContentHash& made_of);
+  void keep(const ContentHash& made_of, Known component);
+
+  std::size_t bytes() const;
+  std::size_t size() const;
+
+ private:
+  struct Hash {
+    std::size_t operator()(const ContentHash& hash) const { return hash.low; }
+  };
+  struct Generation {
+    std::unordered_map<ContentHash, Known, Hash> all;
+    std::size_t bytes = 0;
+  };
+
+  void add(const ContentHash& made_of, Known component);
+
+  const std::size_t most_bytes_;
+  mutable std::mutex mutex_;
+  Generation young_;
+  Generation old_;
+};
+
+}  // namespace btcheck
