@@ -123,13 +123,13 @@ namespace {
 // Follows runs with the fault beside the healthy ones that look the same.
 class Unnoticed {
  public:
-  Unnoticed(const BehaviorTree& tree, const AnswerGraph& healthy,
+  Unnoticed(const BehaviorTree& tree, HealthyRuns& healthy,
             const AnswerGraph& faulty, const InjectedFault& fault)
       : faulty_(faulty),
         fault_(fault),
         root_(root_of(tree, fault.leaf)),
         counts_(!is_of_world(tree.node(fault.leaf))),
-        healthy_(tree, healthy, fault.leaf) {}
+        healthy_(healthy) {}
 
   Silence take() {
     add({}, 0, 0);
@@ -303,7 +303,7 @@ class Unnoticed {
   const InjectedFault& fault_;
   NodeId root_;
   bool counts_;  // what it is for was to be done
-  HealthyRuns healthy_;
+  HealthyRuns& healthy_;
   std::vector<Spot> nodes_;
   std::vector<Move> moves_;
   VectorSet known_{2};  // the numbers are those of the nodes
@@ -312,24 +312,22 @@ class Unnoticed {
 
 }  // namespace
 
-Silence silence_of(const BehaviorTree& tree, const AnswerGraph& healthy,
+Silence silence_of(const BehaviorTree& tree, HealthyRuns& healthy,
                    const AnswerGraph& faulty, const InjectedFault& fault) {
   return Unnoticed(tree, healthy, faulty, fault).take();
 }
 
-std::optional<Notice> notice_on(const BehaviorTree& tree,
-                                const AnswerGraph& healthy, NodeId leaf,
+std::optional<Notice> notice_on(const BehaviorTree& tree, HealthyRuns& healthy,
                                 const std::vector<NodeEvent>& run) {
-  HealthyRuns runs(tree, healthy, leaf);
-  const NodeEvent tick(root_of(tree, leaf), Happening::Asked);
+  const NodeEvent tick(root_of(tree, healthy.leaf()), Happening::Asked);
   HealthyRuns::Places places = HealthyRuns::kStart;
   bool has_struck = false;
   int ticks = 0;
   for (const NodeEvent event : run) {
     has_struck = has_struck || event.what() == Happening::Struck;
     if (event == tick && has_struck) ++ticks;
-    if (!runs.is_heard(event)) continue;
-    const auto after = runs.after(places, event);
+    if (!healthy.is_heard(event)) continue;
+    const auto after = healthy.after(places, event);
     if (!after) return Notice{event.node(), event.what(), ticks};
     places = *after;
   }

@@ -23,7 +23,8 @@
 
 namespace btcheck {
 
-// The healthy runs that look the same so far to all but one leaf.
+// The healthy runs that look the same so far to all but one leaf. What is found
+// out for one fault of the leaf is known for the next.
 class HealthyRuns {
  public:
   using Places = std::uint32_t;
@@ -32,6 +33,7 @@ class HealthyRuns {
   HealthyRuns(const BehaviorTree& tree, const AnswerGraph& healthy,
               NodeId leaf);
 
+  NodeId leaf() const { return leaf_; }
   static constexpr Places kStart = 0;
   // Behind one more event; nothing where no healthy run has it.
   std::optional<Places> after(Places places, NodeEvent event);
@@ -90,8 +92,9 @@ struct Silence {
   bool is_known = true;  // false: too many sets to follow
 };
 
-// `faulty` is the graph of the tree with that one fault.
-Silence silence_of(const BehaviorTree& tree, const AnswerGraph& healthy,
+// `faulty` is the graph of the tree with that one fault, of the leaf that
+// `healthy` does not listen to.
+Silence silence_of(const BehaviorTree& tree, HealthyRuns& healthy,
                    const AnswerGraph& faulty, const InjectedFault& fault);
 
 // Who notices on a run, and when.
@@ -100,8 +103,7 @@ struct Notice {
   Happening what{};
   int ticks = 0;  // since the fault has struck; 0: in the same tick
 };
-std::optional<Notice> notice_on(const BehaviorTree& tree,
-                                const AnswerGraph& healthy, NodeId leaf,
+std::optional<Notice> notice_on(const BehaviorTree& tree, HealthyRuns& healthy,
                                 const std::vector<NodeEvent>& run);
 
 }  // namespace btcheck

@@ -124,7 +124,9 @@ class Searcher {
     return {};
   }
 
-  FaultRow row_of(std::vector<InjectedFault> faults, bool is_alone) {
+  // `runs`: of the leaf of a fault that comes alone; kept for its next one.
+  FaultRow row_of(std::vector<InjectedFault> faults,
+                  std::optional<HealthyRuns>& runs) {
     FaultRow row;
     row.faults = std::move(faults);
     const BehaviorTree tree =
@@ -140,14 +142,17 @@ class Searcher {
       if (row.effect.strikes) break_rules(tree, file, row);
     }
     Silence silence;
-    if (is_alone && row.effect.strikes &&
-        row.effect.stopped == StopReason::None && is_whole()) {
-      silence = silence_of(tree, *healthy_, graph, row.faults[0]);
-      row.within = silence.within;
+    const bool is_alone = row.faults.size() == 1;
+    if (is_alone && row.effect.strikes && is_whole()) {
+      if (!runs) runs.emplace(healthy_tree_, *healthy_, row.faults[0].leaf);
+      if (row.effect.stopped == StopReason::None) {
+        silence = silence_of(tree, *runs, graph, row.faults[0]);
+        row.within = silence.within;
+      }
     }
     row.healthy = healthy_with(row.faults);
     row.harm = harm_of(row.healthy, row.effect, silence);
-    show(tree, graph, shown, silence, row);
+    show(tree, graph, shown, silence, runs, row);
     return row;
   }
 
@@ -155,26 +160,27 @@ class Searcher {
   std::vector<FaultRow> rows_of(
       const std::vector<std::vector<InjectedFault>>& sets) {
     std::vector<FaultRow> rows(sets.size());
+    // Those of one leaf that come alone have much in common.
+    std::vector<std::size_t> first;
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      const bool goes_on = i > 0 && sets[i].size() == 1 &&
+                           sets[i - 1].size() == 1 &&
+                           sets[i][0].leaf == sets[i - 1][0].leaf;
+      if (!goes_on) first.push_back(i);
+    }
+    first.push_back(sets.size());
     std::atomic<std::size_t> next = 0;
     const auto work = [&] {
-      for (std::size_t i = next++; i < sets.size(); i = next++) {
-        rows[i].faults = sets[i];
-        if (monitor_.stopped() != StopReason::None) {
-          rows[i].effect.stopped = monitor_.stopped();
-          continue;
-        }
-        try {
-          rows[i] = row_of(sets[i], sets[i].size() == 1);
-        } catch (const BudgetSpent& spent) {
-          // What is known of the others is told.
-          rows[i].effect.stopped = stop_reason(spent.spent());
-          monitor_.stop(rows[i].effect.stopped);
+      for (std::size_t g = next++; g + 1 < first.size(); g = next++) {
+        std::optional<HealthyRuns> runs;
+        for (std::size_t i = first[g]; i < first[g + 1]; ++i) {
+          rows[i] = row_or_none(sets[i], runs);
         }
       }
     };
     std::vector<std::jthread> threads;
     const std::size_t others =
-        std::min<std::size_t>(std::max(1u, options_.threads), sets.size());
+        std::min<std::size_t>(std::max(1u, options_.threads), first.size() - 1);
     for (std::size_t i = 1; i < others; ++i) threads.emplace_back(work);
     work();
     threads.clear();
@@ -191,6 +197,22 @@ class Searcher {
   }
 
  private:
+  FaultRow row_or_none(const std::vector<InjectedFault>& faults,
+                       std::optional<HealthyRuns>& runs) {
+    FaultRow none;
+    none.faults = faults;
+    none.effect.stopped = monitor_.stopped();
+    if (none.effect.stopped != StopReason::None) return none;
+    try {
+      return row_of(faults, runs);
+    } catch (const BudgetSpent& spent) {
+      // What is known of the others is told.
+      none.effect.stopped = stop_reason(spent.spent());
+      monitor_.stop(none.effect.stopped);
+      return none;
+    }
+  }
+
   bool is_whole() const { return result_.healthy.stopped == StopReason::None; }
 
   Result<std::vector<PropertyVerdict>> judged_rules(const BehaviorTree& tree,
@@ -251,7 +273,8 @@ class Searcher {
   }
 
   void show(const BehaviorTree& tree, const AnswerGraph& graph,
-            const Shown& shown, const Silence& silence, FaultRow& row) {
+            const Shown& shown, const Silence& silence,
+            std::optional<HealthyRuns>& runs, FaultRow& row) {
     // A run that shows it; else one that tells what happens then at all.
     const std::optional<Shown::Path>* path = nullptr;
     switch (row.harm) {
@@ -285,8 +308,8 @@ class Searcher {
     row.struck_in =
         tick_of(tree, run, static_cast<std::size_t>(strike - run.begin()));
     row.ended_in = tick_of(tree, run, run.size());
-    if (is_whole() && row.faults.size() == 1) {
-      row.notice = notice_on(tree, *healthy_, leaf, run);
+    if (runs) {
+      row.notice = notice_on(tree, *runs, run);
       const bool gets_on =
           row.harm != Harm::Silent && row.harm != Harm::NeverEnds;
       if (shown.succeeds && gets_on) {
