@@ -134,9 +134,11 @@ void Composition::hide() {
           return stands_in_[user] == in;
         });
     if (!is_hidden) continue;
+    hidden_[v] = true;
+    // There the component itself stands.
+    if (id == root.location) continue;
     Variable& variable = network_.variables[v];
     variable.min = variable.max = variable.initial;
-    hidden_[v] = true;
   }
 }
 
