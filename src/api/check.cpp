@@ -185,8 +185,10 @@ Report checked(const Request& request, CallSources& sources, Monitor* monitor,
                KnownReports* known, const FoundFirst& first) {
   return called(request, sources, monitor, known,
                 [&](const Inputs& inputs, Call& call, CheckResult& result) {
-                  const CheckOptions options =
-                      options_of(request, inputs, call);
+                  CheckOptions options = options_of(request, inputs, call);
+                  if (known != nullptr) {
+                    options.choices.components = KnownReports::components();
+                  }
                   result = btcheck::check(inputs.tree, inputs.rules, options);
                   if (first) {
                     ReportedTree told;

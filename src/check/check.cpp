@@ -123,7 +123,8 @@ DefaultReport default_answers(const BehaviorTree& tree,
   }
   if (options.choices.reduction == Reduction::Full && !options.start) {
     if (does(Reduction::Full, kStatesBeforeParts)) return std::move(*known);
-    attempt(check_defaults_in_parts, options.limits, kNodesTogether);
+    attempt(check_defaults_in_parts, options.limits,
+            options.choices.components.get(), kNodesTogether);
     if (known->stopped != StopReason::MaxStates) return std::move(*known);
   }
   attempt(check_defaults, options.choices.reduction, options.limits,

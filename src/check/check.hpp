@@ -41,7 +41,7 @@ struct TreeInput : InputFile {
 
 struct CheckOptions {
   std::optional<TickSemantics> ticks;  // overrides what property files say
-  SearchChoices choices;
+  SearchChoices choices = {.components = std::make_shared<ComponentStore>()};
   ExtraAssumption extra = ExtraAssumption::None;
   Limits limits;
   Judgement judgement = {};

@@ -256,7 +256,10 @@ class Known final : public v1::KnownReports {
  public:
   Known(std::string_view call, const ServedSources& sources)
       : call_(call), sources_(sources) {
-    if (limits_of_command().overdrawn() == Spent::Memory) recent().forget();
+    if (limits_of_command().overdrawn() == Spent::Memory) {
+      recent().forget();
+      components()->forget();
+    }
   }
 
   std::optional<v1::Report> find(const v1::Request& request,

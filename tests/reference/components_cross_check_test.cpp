@@ -223,10 +223,16 @@ std::string flaw_of(const ReductionCase& each, ComponentTable& components,
   return {};
 }
 
+// Of all networks that were looked at before, as far as there is room.
+ComponentStore& known_parts() {
+  static ComponentStore store(std::size_t{4} << 20);
+  return store;
+}
+
 std::string flaw_of(const ReductionCase& each, Census& census) {
   const Network& network = each.network;
-  ComponentTable components(network,
-                            std::vector<bool>(network.variables.size()), {});
+  ComponentTable components(
+      network, std::vector<bool>(network.variables.size()), {}, &known_parts());
   std::string wrong = flaw_of(each, components, std::nullopt, census);
   for (std::uint32_t a = 0; a < network.automata.size() && wrong.empty(); ++a) {
     if (network.automata[a].kind != AutomatonKind::Node) continue;

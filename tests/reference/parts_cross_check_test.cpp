@@ -58,6 +58,12 @@ bool shows(const Network& network, const KeptRun& run, NodeId node,
          node_entering(network, steps.back().edge, role) == node;
 }
 
+// Of all trees that were checked before, as far as there is room.
+ComponentStore& known_parts() {
+  static ComponentStore store(std::size_t{4} << 20);
+  return store;
+}
+
 std::string flaw_of(const BehaviorTree& tree, TickSemantics ticks,
                     Census& census) {
   const Network network = lower(tree, ticks);
@@ -68,8 +74,8 @@ std::string flaw_of(const BehaviorTree& tree, TickSemantics ticks,
       check_defaults(tree, system, Reduction::None, few);
   if (whole.stopped != StopReason::None) return {};
   ++census.trees;
-  const DefaultReport parts =
-      check_defaults_in_parts(tree, system, {}, 1 + census.trees % 4);
+  const DefaultReport parts = check_defaults_in_parts(
+      tree, system, {}, &known_parts(), 1 + census.trees % 4);
   if (!parts.error.empty()) return parts.error;
   if (parts.stopped != StopReason::None) return {};
   ++census.parts;

@@ -278,14 +278,14 @@ class MonitorOfAll : public SearchMonitor {
 class SearchInParts {
  public:
   SearchInParts(const BehaviorTree& tree, const CompiledNetwork& system,
-                const Limits& limits)
+                const Limits& limits, ComponentStore* known)
       : tree_(tree),
         system_(system),
         limits_(limits),
         inquiry_(tree, system.network()),
         components_(system.network(),
                     std::vector<bool>(system.network().variables.size(), false),
-                    {}) {}
+                    {}, known) {}
 
   DefaultReport report(std::size_t together) && {
     report_.reduction = Reduction::Full;
@@ -383,8 +383,9 @@ class SearchInParts {
 DefaultReport check_defaults_in_parts(const BehaviorTree& tree,
                                       const CompiledNetwork& system,
                                       const Limits& limits,
+                                      ComponentStore* known,
                                       std::size_t together) {
-  return SearchInParts(tree, system, limits).report(together);
+  return SearchInParts(tree, system, limits, known).report(together);
 }
 
 }  // namespace btcheck

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "check/questions/defaults.hpp"
+#include "explore/components/component_store.hpp"
 
 namespace btcheck {
 
@@ -14,11 +15,13 @@ namespace btcheck {
 // node's and each sighting's with these nodes. The answers are those of
 // check_defaults; what could not be had so is Undecided, and the report says by
 // which limit it was stopped. The network has to be at its start. Up to
-// `together` nodes that stand together are asked for in one search.
+// `together` nodes that stand together are asked for in one search. `known`:
+// what is known of parts, of this tree and others; may be null.
 inline constexpr std::size_t kNodesTogether = 8;
 DefaultReport check_defaults_in_parts(const BehaviorTree& tree,
                                       const CompiledNetwork& system,
                                       const Limits& limits,
+                                      ComponentStore* known,
                                       std::size_t together = kNodesTogether);
 
 }  // namespace btcheck

@@ -175,7 +175,7 @@ class Verifier {
   // Of so many questions, those that are asked in one search. In parts each is
   // by itself: what is seen of all would have to stand at the same time.
   std::vector<std::vector<bool>> together_of(std::size_t count) const {
-    if (!in_parts()) return {std::vector<bool>(count, true)};
+    if (in_parts() == nullptr) return {std::vector<bool>(count, true)};
     std::vector<std::vector<bool>> each(count, std::vector<bool>(count, false));
     for (std::size_t q = 0; q < count; ++q) each[q][q] = true;
     return each;
@@ -188,7 +188,11 @@ class Verifier {
     }
     return those;
   }
-  bool in_parts() const { return choices_.parts == PartsUse::Always; }
+  // Where what is known of them is kept; null where the whole is searched.
+  ComponentStore* in_parts() const {
+    return choices_.parts == PartsUse::Always ? choices_.components.get()
+                                              : nullptr;
+  }
 
   void judge_states(std::size_t property, const ReachabilityResult& result,
                     bool is_met) {
@@ -443,6 +447,9 @@ Verification verify(const CompiledNetwork& system, const BoundFile& file,
   if (choices.parts == PartsUse::WhereLarge && !file.properties.empty()) {
     choices.parts =
         is_large(system, limits) ? PartsUse::Always : PartsUse::Never;
+  }
+  if (choices.components == nullptr) {
+    choices.components = std::make_shared<ComponentStore>();
   }
   return Verifier(system, file, choices, limits).run();
 }

@@ -3,11 +3,13 @@
 // Which search answers which property, and one search for many.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "check/bind/bound_property.hpp"
 #include "check/bind/verdict.hpp"
+#include "explore/components/component_store.hpp"
 #include "explore/large/scratch.hpp"
 #include "explore/reduce/observed.hpp"
 #include "explore/search/reachability.hpp"
@@ -39,6 +41,9 @@ struct SearchChoices {
   std::uint64_t sequential_states = 1'000'000;
   // Whether verdicts have the runs that show them; they take room and time.
   bool keeps_runs = true;
+  // What is known of parts of this tree and others like it, and is told of
+  // more; null: what one search finds serves no other. No answer depends on it.
+  std::shared_ptr<ComponentStore> components = {};
 };
 
 struct Verification {

@@ -14,8 +14,8 @@ namespace btcheck {
 
 // The nodes whose variables are seen stand as they are.
 struct SearchedNetwork::Parts {
-  Parts(const Network& network, const Observed& observed)
-      : components(network, seen_in(network, observed), {}),
+  Parts(const Network& network, const Observed& observed, ComponentStore& known)
+      : components(network, seen_in(network, observed), {}, &known),
         composition(components, standing(network, observed), false) {}
 
   static std::vector<bool> seen_in(const Network& network,
@@ -50,13 +50,13 @@ SearchedNetwork::SearchedNetwork(const CompiledNetwork& system)
 
 SearchedNetwork::SearchedNetwork(const CompiledNetwork& system,
                                  const Observed& observed, Reduction reduction,
-                                 bool in_parts)
+                                 ComponentStore* known)
     : original_(system), reduced_(system) {
   const Network* network = &system.network();
   const bool sees_silence =
       observed.sees_steps() || observed.sees_dead_states();
-  if (in_parts && reduction == Reduction::Full && !sees_silence) {
-    auto parts = std::make_unique<const Parts>(*network, observed);
+  if (known != nullptr && reduction == Reduction::Full && !sees_silence) {
+    auto parts = std::make_unique<const Parts>(*network, observed, *known);
     if (parts->composition.left_out() > 0) {
       own_parts_ = std::move(parts);
       parts_ = &own_parts_->composition;

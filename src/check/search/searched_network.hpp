@@ -24,11 +24,11 @@ class SearchedNetwork {
  public:
   // Nothing reduced. The system must outlive this.
   explicit SearchedNetwork(const CompiledNetwork& system);
-  // What is observed must be all that the search looks at. With `in_parts` all
+  // What is observed must be all that the search looks at. With `parts` all
   // else stands as components, where that keeps the answers: of linear time, in
   // which neither single steps nor dead states are seen.
   SearchedNetwork(const CompiledNetwork& system, const Observed& observed,
-                  Reduction reduction, bool in_parts = false);
+                  Reduction reduction, ComponentStore* parts = nullptr);
   // For a search that notices changes of `seen` at any moment, and looks at
   // `kept` only on certain steps of the nodes concerned.
   SearchedNetwork(const CompiledNetwork& system, const Observed& seen,

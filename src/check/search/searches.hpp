@@ -66,7 +66,7 @@ struct FileSearch {
   const CompiledNetwork& system;
   const BoundFile& file;
   Reduction reduction;
-  bool in_parts;
+  ComponentStore* in_parts;  // null where the whole is searched
   const Limits& limits;
   std::vector<PropertyVerdict>& verdicts;
 };

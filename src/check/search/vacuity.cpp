@@ -115,7 +115,7 @@ bool take_census(const FileSearch& all) {
   // What is seen of all has to stand at the same time.
   std::vector<std::vector<std::size_t>> groups(1);
   for (std::size_t k = 0; k < counted.size(); ++k) {
-    if (all.in_parts && k > 0) groups.emplace_back();
+    if (all.in_parts != nullptr && k > 0) groups.emplace_back();
     groups.back().push_back(k);
   }
   bool has_fault = false;

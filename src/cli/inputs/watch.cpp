@@ -152,16 +152,19 @@ Watch::Watch(const Options& options)
 }
 
 CheckOptions check_options(const Options& options, const Limits& limits) {
-  return {options.ticks,
-          {options.search,
-           options.reduce,
-           PartsUse::WhereLarge,
-           threads_to_use(options),
-           {options.scratch_dir}},
-          options.assume,
-          limits,
-          options.judgement,
-          options.tries_repairs};
+  static const auto components = std::make_shared<ComponentStore>();
+  CheckOptions made{options.ticks,
+                    {options.search,
+                     options.reduce,
+                     PartsUse::WhereLarge,
+                     threads_to_use(options),
+                     {options.scratch_dir}},
+                    options.assume,
+                    limits,
+                    options.judgement,
+                    options.tries_repairs};
+  made.choices.components = components;
+  return made;
 }
 
 bool can_use_disk(const Options& options) {

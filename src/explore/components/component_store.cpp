@@ -33,6 +33,12 @@ void ComponentStore::keep(const ContentHash& made_of, Known component) {
   add(made_of, std::move(component));
 }
 
+void ComponentStore::forget() {
+  const std::lock_guard lock(mutex_);
+  young_ = {};
+  old_ = {};
+}
+
 void ComponentStore::add(const ContentHash& made_of, Known component) {
   // Of the table beside the component.
   constexpr std::size_t kBytesBeside = 64;

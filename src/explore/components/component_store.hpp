@@ -39,6 +39,7 @@ class ComponentStore {
   using Known = std::shared_ptr<const Component>;
   std::optional<Known> find(const ContentHash& made_of);
   void keep(const ContentHash& made_of, Known component);
+  void forget();
 
   std::size_t bytes() const;
   std::size_t size() const;
