@@ -44,19 +44,29 @@ struct ReadTree {
   WhatIfInput read;
 };
 
+// With the names that files have in their revision, where there is one.
+void show(const Options& options, const Revision* revision,
+          std::vector<Diagnostic> found) {
+  for (Diagnostic& each : found) {
+    if (revision != nullptr) each.file = revision->shown(each.file);
+  }
+  show(options, found);
+}
+
 // Reads it, or shows what is wrong with it.
-std::optional<ReadTree> read_of(const ComparedTree& tree) {
+std::optional<ReadTree> read_of(const ComparedTree& tree,
+                                const Revision* revision) {
   std::vector<Diagnostic> found;
   auto inputs =
       gather_inputs(tree.input, tree.options.properties, tree.options, found);
   if (!inputs) {
-    show(tree.options, found);
+    show(tree.options, revision, std::move(found));
     return std::nullopt;
   }
   tell_settings(inputs->options, inputs->tree.name);
   auto read = what_if_input(inputs->tree, inputs->properties);
   found.insert(found.end(), read.diagnostics.begin(), read.diagnostics.end());
-  show(inputs->options, found);
+  show(inputs->options, revision, std::move(found));
   if (!read.value) return std::nullopt;
   return ReadTree{std::move(*inputs), std::move(*read.value)};
 }
@@ -113,8 +123,8 @@ void tell_all(const Options& options, const DiffReport& report,
 
 ExitCode compare_two(const ComparedTree& one, const ComparedTree& other,
                      const Revision* revision, Written& written) {
-  const auto first = read_of(one);
-  const auto second = read_of(other);
+  const auto first = read_of(one, revision);
+  const auto second = read_of(other, revision);
   if (!first || !second) return ExitCode::BadInput;
   const Options& options = first->inputs.options;
   Watch watch(options);
@@ -157,12 +167,13 @@ ExitCode compare_two(const ComparedTree& one, const ComparedTree& other,
 }
 
 // The trees of a folder, by their names in it.
-std::map<std::string, ComparedTree> trees_in(const ComparedTree& folder) {
+std::map<std::string, ComparedTree> trees_in(const ComparedTree& folder,
+                                             const Revision* revision) {
   std::map<std::string, ComparedTree> trees;
   Options options = folder.options;
   options.batch.sources = {folder.input};
   for (const BatchEntry& entry : gather_batch(options)) {
-    show(options, entry.diagnostics);
+    show(options, revision, entry.diagnostics);
     if (has_error(entry.diagnostics) || !names_tree(entry.input)) continue;
     std::error_code fault;
     std::string name =
@@ -179,8 +190,8 @@ std::map<std::string, ComparedTree> trees_in(const ComparedTree& folder) {
 
 ExitCode compare_folders(const ComparedTree& one, const ComparedTree& other,
                          const Revision* revision, Written& written) {
-  const auto before = trees_in(one);
-  const auto now = trees_in(other);
+  const auto before = trees_in(one, revision);
+  const auto now = trees_in(other, revision);
   ExitCode worst = ExitCode::Met;
   std::size_t compared = 0;
   const auto alone = [&](const std::string& name, const std::string& where) {
