@@ -8,6 +8,7 @@
 #include "check/replay/replay.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace btcheck {
 namespace {
@@ -50,7 +51,27 @@ NetworkInterpreter::NetworkInterpreter(const Network& network)
         automaton.edges,
         [](const Edge& edge) { return edge.when.needs_clock(); });
     if (is_clocked) clocked_.push_back(a);
+    first_of_.push_back(first_.size());
+    std::vector<std::size_t> count(automaton.locations.size() + 1, 0);
+    for (const Edge& edge : automaton.edges) ++count[index(edge.source)];
+    std::exclusive_scan(count.begin(), count.end(), count.begin(),
+                        by_source_.size());
+    first_.insert(first_.end(), count.begin(), count.end());
+    by_source_.resize(count.back());
+    for (const Edge& edge : automaton.edges) {
+      by_source_[count[index(edge.source)]++] = &edge;
+    }
   }
+}
+
+std::span<const Edge* const> NetworkInterpreter::leaving(
+    const Automaton& automaton, const Valuation& state) const {
+  const auto number =
+      static_cast<std::size_t>(&automaton - network_.automata.data());
+  const std::size_t here = index(location(automaton, state));
+  if (here >= automaton.locations.size()) return {};
+  const std::size_t* first = &first_[first_of_[number] + here];
+  return {by_source_.data() + first[0], by_source_.data() + first[1]};
 }
 
 Valuation NetworkInterpreter::initial() const {
@@ -105,8 +126,8 @@ bool NetworkInterpreter::is_faulty(const Valuation& state) const {
 
 bool NetworkInterpreter::some_timer_is_due(const Valuation& state) const {
   for (const Automaton* timer : timers_) {
-    for (const Edge& edge : timer->edges) {
-      if (clock_of_enabled(state, *timer, edge) == edge.when.upper) {
+    for (const Edge* edge : leaving(*timer, state)) {
+      if (clock_of_enabled(state, *timer, *edge) == edge->when.upper) {
         return true;
       }
     }
@@ -149,9 +170,9 @@ bool NetworkInterpreter::may_wait(const Valuation& state) const {
   const bool is_untimed = network_.ticks == TickSemantics::None;
   for (const Automaton& automaton : network_.automata) {
     if (is_untimed && automaton.kind == AutomatonKind::StateVariable) continue;
-    for (const Edge& edge : automaton.edges) {
-      const auto clock = clock_of_enabled(state, automaton, edge);
-      if (clock && (is_untimed || clock == edge.when.upper)) return false;
+    for (const Edge* edge : leaving(automaton, state)) {
+      const auto clock = clock_of_enabled(state, automaton, *edge);
+      if (clock && (is_untimed || clock == edge->when.upper)) return false;
     }
   }
   return true;

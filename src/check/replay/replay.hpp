@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,6 +51,9 @@ class NetworkInterpreter {
   std::int64_t value(const Expression& expression,
                      const Valuation& state) const;
   LocationId location(const Automaton& automaton, const Valuation& state) const;
+  // Those that leave the present location.
+  std::span<const Edge* const> leaving(const Automaton& automaton,
+                                       const Valuation& state) const;
   // The automaton's clock where the edge is enabled, priorities aside: the
   // source active, the guard true, the clock within the interval.
   std::optional<int> clock_of_enabled(const Valuation& state,
@@ -66,6 +70,11 @@ class NetworkInterpreter {
   std::vector<std::size_t> clocked_;  // automata: the clocks of others stay 0
   // By variable: the automaton whose location it is, if any.
   std::vector<std::optional<std::size_t>> located_;
+  // The edges of each automaton by their sources: of location l of automaton a
+  // they stand in by_source_ from first_[first_of_[a] + l] on.
+  std::vector<std::size_t> first_of_;
+  std::vector<std::size_t> first_;
+  std::vector<const Edge*> by_source_;
 };
 
 // Executes what a search of a network found, step by step: every state on the
