@@ -116,13 +116,16 @@ DefaultReport default_answers(const BehaviorTree& tree,
     return known->stopped != StopReason::MaxStates || most <= most_states;
   };
   for (const auto& [reduction, most_states] : kAttempts) {
-    if (!options.wants_shortest || reduction >= options.choices.reduction) {
+    if (!options.wants_shortest || options.is_large ||
+        reduction >= options.choices.reduction) {
       continue;
     }
     if (does(reduction, most_states)) return std::move(*known);
   }
   if (options.choices.reduction == Reduction::Full && !options.start) {
-    if (does(Reduction::Full, kStatesBeforeParts)) return std::move(*known);
+    if (!options.is_large && does(Reduction::Full, kStatesBeforeParts)) {
+      return std::move(*known);
+    }
     attempt(check_defaults_in_parts, options.limits,
             options.choices.components.get(), kNodesTogether);
     if (known->stopped != StopReason::MaxStates) return std::move(*known);

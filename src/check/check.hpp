@@ -55,6 +55,9 @@ struct CheckOptions {
   std::int64_t most_whole = kMostWhole;
   // The default report tells shortest runs where that does not cost much.
   bool wants_shortest = true;
+  // A tree much like this one was asked part by part: the whole is not tried
+  // before.
+  bool is_large = false;
 };
 
 // One property file, or none at all, against the tree.

@@ -179,6 +179,8 @@ class Repairing {
   CheckOptions narrow_options() {
     CheckOptions narrow = options_;
     narrow.wants_shortest = false;
+    const auto& report = result_.files.front().defaults;
+    narrow.is_large = report && report->searches > 0;
     Limits& limits = narrow.limits;
     limits.monitor = &spare_;
     limits.max_states = std::min(limits.max_states, budget_);
