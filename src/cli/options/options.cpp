@@ -734,15 +734,14 @@ void settle_diff(const OptionWords& words, Options& options) {
            "btcheck diff --git main TREE.xml");
   }
   const std::size_t count = words.inputs.size();
-  const bool is_one_tree = words.has("--git") || words.has("--against");
-  if (count == 0 || count == (is_one_tree ? 1 : 2)) return;
-  if (words.has("--git")) {
+  const bool may_be_one = words.has("--git") || words.has("--against");
+  const bool may_be_two = !words.has("--git");
+  if (count == 0 || (count == 1 && may_be_one) || (count == 2 && may_be_two)) {
+    return;
+  }
+  if (!may_be_two) {
     refuse("--git compares one tree with what it was",
            "btcheck diff --git main TREE.xml");
-  }
-  if (words.has("--against")) {
-    refuse("--against compares one tree with itself under another profile",
-           "btcheck diff TREE.xml --profile A --against B");
   }
   refuse(fmt::format("diff compares two trees, not {}", count),
          "btcheck diff OLD.xml NEW.xml");

@@ -181,7 +181,7 @@ constexpr CommandRow kCommands[] = {
          "in one of them only. Leaves are the same by name and place. Two "
          "folders are compared tree by tree; with --git, one tree or folder "
          "with what it was; with --against, with itself under another "
-         "profile."},
+         "profile, or the second of two trees under that one."},
     {.command = Explain,
      .word = "explain",
      .argument = ArgumentKind::CodeOrRun,
