@@ -20,7 +20,9 @@ CutPart::CutPart(const ComponentTable& all, AutomatonId root, PartSide side,
   status_ = number(network_.node_status[index(top.node)]);
   if (top.gate) gate_ = number(*top.gate);
   put_automaton(members_[0].automaton);
+  put(timers_.size());
   for (const AutomatonId timer : timers_) put_automaton(timer);
+  put(members_.size());
   for (const PartMember& member : members_) {
     if (member.component != nullptr) put_component(member);
   }
@@ -33,7 +35,7 @@ CutPart::CutPart(const ComponentTable& all, AutomatonId root, PartSide side,
        {static_cast<std::size_t>(network_.ticks),
         static_cast<std::size_t>(side_), std::size_t{is_called_},
         std::size_t{waits_instantly_}, std::size_t{gate_.has_value()},
-        timers_.size(), all.limits_.states, all.limits_.edges}) {
+        all.limits_.states, all.limits_.edges}) {
     put(value);
   }
 }
@@ -120,6 +122,7 @@ void CutPart::collect_own() {
   }
   add_clock(members_[0].automaton);
   for (const AutomatonId timer : timers_) add_clock(timer);
+  put(names_.size());
   for (std::uint32_t n = 0; n < names_.size(); ++n) {
     put(variables_[n].min);
     put(variables_[n].max);
