@@ -189,6 +189,9 @@ const Automaton& ComponentTable::automaton_of(AutomatonId root, PartSide side) {
       return placed.name(own);
     });
     const Automaton& middle = network_.automaton(placed.members[0].automaton);
+    for (const VariableId local : placed.shape->automaton.locals) {
+      placed.automaton.locals.push_back(placed.name(local));
+    }
     placed.automaton.name = middle.name;
     placed.automaton.node = middle.node;
   }

@@ -96,8 +96,8 @@ class CutPart {
   std::vector<VariableId> own_;
 };
 
-// An automaton, as far as components look at one, with its variables called
-// something else.
+// An automaton, as far as components look at one, with the variables that it
+// speaks of called something else. It may have locals that it does not.
 template <class Name>
 Automaton with_names(const Automaton& automaton, Name&& name) {
   const auto renamed = [&](const Expression& expression) {
@@ -113,9 +113,6 @@ Automaton with_names(const Automaton& automaton, Name&& name) {
   made.location = name(automaton.location);
   if (automaton.gate) made.gate = name(*automaton.gate);
   made.locations = automaton.locations;
-  for (const VariableId local : automaton.locals) {
-    made.locals.push_back(name(local));
-  }
   made.edges.reserve(automaton.edges.size());
   for (const Edge& edge : automaton.edges) {
     Edge& each = made.edges.emplace_back();
