@@ -103,6 +103,23 @@ TEST_CASE("behind a change that nobody sees all is known") {
   CHECK(store.size() == known + 2);
 }
 
+TEST_CASE("a node may have a local that no edge speaks of") {
+  Network network =
+      network_of(tree("<Sequence><Action ID=\"Go\"/></Sequence>"));
+  for (Automaton& automaton : network.automata) {
+    automaton.locals.push_back(
+        VariableId{static_cast<std::uint32_t>(network.variables.size())});
+    network.variables.push_back(
+        {VariableRole::Local, "unused", 0, 3, 0, {}, {}});
+  }
+  ComponentTable table(network,
+                       std::vector<bool>(network.variables.size(), false), {});
+  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    if (network.automata[a].kind != AutomatonKind::Node) continue;
+    CHECK(table.of(AutomatonId{a}) != nullptr);
+  }
+}
+
 TEST_CASE("of components as many are kept as there is room for") {
   constexpr std::size_t kMost = 100'000;
   ComponentStore store(kMost);
