@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "compared.hpp"
 
@@ -36,6 +37,20 @@ std::size_t count_of(const std::string& text, std::string_view part) {
 }
 
 }  // namespace
+
+TEST_CASE("two trees are called by what tells them apart") {
+  const Diff diff;
+  const auto labels = [&](std::string one, std::string other) {
+    const DiffReport report{diff, {std::move(one), std::move(other)}};
+    return std::pair(report.label(0), report.label(1));
+  };
+  using Labels = std::pair<std::string, std::string>;
+  CHECK(labels("old/t.xml", "new/t.xml") == Labels("old", "new"));
+  CHECK(labels("t.xml", "t.xml") == Labels("t.xml", "t.xml"));
+  CHECK(labels("a/t.xml (nav2-kilted)", "a/t.xml (nav2-main)") ==
+        Labels("nav2-kilted", "nav2-main"));
+  CHECK(labels("a (1).xml", "a (2).xml") == Labels("a (1).xml", "a (2).xml"));
+}
 
 TEST_CASE("a run that one has alone stands side by side") {
   const Diff diff = compared(kPlain, kReactive);
