@@ -35,6 +35,8 @@ std::string without_timing(const std::string& text) {
       {std::regex("(\"started\": ?)\"[^\"]*\""), "$1_"},
       {std::regex("( (time|timestamp)=)\"[-.:0-9TZ]+\""), "$1_"},
       {std::regex("(\"peak_bytes\" value=)\"[0-9]+\""), "$1_"},
+      // How far a search is, where it takes so long that this is told.
+      {std::regex("[0-9]+ s  depth [^\n]*\n"), ""},
       {std::regex("\\{\"event\":\"progress\"[^\n]*\n"), ""}};
   std::string masked = text;
   for (const auto& [timing, mask] : kTimings) {
