@@ -104,7 +104,8 @@ struct Home {
 const std::vector<Home>& homes() {
   static const std::vector<Home> all = {
       {"xxhash.h",
-       {"src/explore/store/state_store.cpp",
+       {"src/explore/components/component_store.cpp",
+        "src/explore/store/state_store.cpp",
         "src/explore/halves/half_dictionary.cpp",
         "src/explore/large/sorted_run.cpp", "src/batch/results/seal.cpp"}},
       {"zstd.h",
