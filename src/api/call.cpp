@@ -180,11 +180,6 @@ CheckOptions options_of(const Request& request, const Inputs& inputs,
   return options;
 }
 
-const std::shared_ptr<ComponentStore>& KnownReports::components() {
-  static const auto store = std::make_shared<ComponentStore>();
-  return store;
-}
-
 Diagnostic spent_diagnostic(const BudgetSpent& spent, const std::string& file) {
   return file_error("BT9003", file,
                     fmt::format("UNDECIDED: {} while {}",

@@ -7,14 +7,12 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "btcheck/check.hpp"
 #include "check/check.hpp"
-#include "explore/components/component_store.hpp"
 #include "explore/state/limits.hpp"
 #include "model/automata/network.hpp"
 #include "project/sources.hpp"
@@ -128,9 +126,6 @@ class KnownReports {
   // Of a call that no limit of time has ended or shortened.
   virtual void keep(const Request& request, const Inputs& inputs,
                     const Report& report) = 0;
-  // What is known of parts of trees: for all calls of a program that keeps
-  // reports.
-  static const std::shared_ptr<ComponentStore>& components();
 };
 
 // Hears what a check has found before repairs are tried: a report without them,

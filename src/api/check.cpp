@@ -10,6 +10,7 @@
 #include "api/call.hpp"
 #include "api/told.hpp"
 #include "check/repairs/repairs.hpp"
+#include "explore/components/component_store.hpp"
 #include "explore/state/spent.hpp"
 #include "report/codes/codes.hpp"
 #include "report/formats/formats.hpp"
@@ -187,7 +188,7 @@ Report checked(const Request& request, CallSources& sources, Monitor* monitor,
                 [&](const Inputs& inputs, Call& call, CheckResult& result) {
                   CheckOptions options = options_of(request, inputs, call);
                   if (known != nullptr) {
-                    options.choices.components = KnownReports::components();
+                    options.choices.components = ComponentStore::of_program();
                   }
                   result = btcheck::check(inputs.tree, inputs.rules, options);
                   if (first) {

@@ -142,17 +142,18 @@ ExitCode compare_two(const ComparedTree& one, const ComparedTree& other,
   // What is known is told, however long that takes.
   const BudgetScope telling(nullptr);
   Guard::dismiss();
-  std::array<std::string, 2> names = {one.name, other.name};
-  for (std::size_t side = 0; options.against && side < 2; ++side) {
-    names[side] += fmt::format(
-        " ({})", profile_name(compared.value->sides[side].tree.profile));
-  }
   DiffReport report{*compared.value,
-                    std::move(names),
+                    {one.name, other.name},
                     how.caller,
                     how.observe,
                     {&first->inputs.tree, &second->inputs.tree},
                     *changes};
+  for (std::size_t side = 0; options.against && side < 2; ++side) {
+    const std::string profile(
+        profile_name(compared.value->sides[side].tree.profile));
+    if (one.name == other.name) report.profiles[side] = profile;
+    report.names[side] += " (" + profile + ")";
+  }
   if (revision != nullptr) {
     for (DiffChange& each : *report.changes) {
       each.file = revision->shown(each.file);

@@ -15,6 +15,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/process_limits.hpp"
+#include "explore/components/component_store.hpp"
 #include "project/content.hpp"
 
 namespace btcheck {
@@ -258,7 +259,7 @@ class Known final : public v1::KnownReports {
       : call_(call), sources_(sources) {
     if (limits_of_command().overdrawn() == Spent::Memory) {
       recent().forget();
-      components()->forget();
+      ComponentStore::of_program()->forget();
     }
   }
 

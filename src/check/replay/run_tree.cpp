@@ -60,7 +60,7 @@ std::vector<Step> RunTree::steps_to(Place place) const {
 
 Run KeptRun::told() const {
   Run run;
-  run.initial = NetworkInterpreter(tree_->network()).initial();
+  run.initial = tree_->interpreter().initial();
   run.loop = loop();
   walk([&](const Valuation&, const RunStep& step) {
     run.steps.push_back(step);

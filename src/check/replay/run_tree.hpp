@@ -36,6 +36,7 @@ class RunTree {
   std::size_t length_to(Place place) const { return branches_[place].depth; }
 
   const Network& network() const { return network_; }
+  const NetworkInterpreter& interpreter() const { return interpreter_; }
 
  private:
   struct Branch {
@@ -78,7 +79,7 @@ class KeptRun {
   // As Run::walk, with one state at a time: both arguments die with the call.
   template <class Visit>
   void walk(Visit&& visit) const {
-    const NetworkInterpreter interpreter(tree_->network());
+    const NetworkInterpreter& interpreter = tree_->interpreter();
     Valuation before = interpreter.initial();
     RunStep next{{}, before};
     const auto take = [&](const Step& step) {

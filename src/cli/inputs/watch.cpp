@@ -21,6 +21,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/memory.hpp"
+#include "explore/components/component_store.hpp"
 
 namespace btcheck {
 namespace {
@@ -152,7 +153,6 @@ Watch::Watch(const Options& options)
 }
 
 CheckOptions check_options(const Options& options, const Limits& limits) {
-  static const auto components = std::make_shared<ComponentStore>();
   CheckOptions made{options.ticks,
                     {options.search,
                      options.reduce,
@@ -163,7 +163,7 @@ CheckOptions check_options(const Options& options, const Limits& limits) {
                     limits,
                     options.judgement,
                     options.tries_repairs};
-  made.choices.components = components;
+  made.choices.components = ComponentStore::of_program();
   return made;
 }
 

@@ -15,6 +15,11 @@ ContentHash hash_of(std::span<const std::int32_t> content) {
   return {hash.low64, hash.high64};
 }
 
+const std::shared_ptr<ComponentStore>& ComponentStore::of_program() {
+  static const auto store = std::make_shared<ComponentStore>();
+  return store;
+}
+
 std::optional<ComponentStore::Known> ComponentStore::find(
     const ContentHash& made_of) {
   const std::lock_guard lock(mutex_);

@@ -34,6 +34,8 @@ class ComponentStore {
 
   explicit ComponentStore(std::size_t most_bytes = kMostBytes)
       : most_bytes_(most_bytes) {}
+  // The one for all checks of this program that share what they know.
+  static const std::shared_ptr<ComponentStore>& of_program();
 
   // Nothing where it is not known; null where none can be made of that.
   using Known = std::shared_ptr<const Component>;

@@ -84,12 +84,7 @@ std::vector<DiffChange> changes_between(const CheckResult& one,
 }
 
 std::string DiffReport::label(std::size_t side) const {
-  // One tree twice: what stands behind its name tells them apart.
-  const std::size_t behind = names[side].rfind(" (");
-  if (behind != std::string::npos && names[side].ends_with(')') &&
-      names[1 - side].starts_with(names[side].substr(0, behind + 2))) {
-    return names[side].substr(behind + 2, names[side].size() - behind - 3);
-  }
+  if (!profiles[side].empty()) return profiles[side];
   const auto parts_of = [](const std::string& name) {
     std::vector<std::string> parts;
     for (std::size_t at = 0; at <= name.size();) {

@@ -42,9 +42,11 @@ struct DiffReport {
   std::vector<std::string> observe = {};
   std::array<const TreeInput*, 2> inputs = {};  // for pages: may be null
   std::optional<std::vector<DiffChange>> changes = {};  // where it was checked
+  // Of one tree twice: "nav2-jazzy", the profile under which each is read.
+  std::array<std::string, 2> profiles = {};
 
-  // A name without what both have in common: "nav2-jazzy" of two trees that
-  // differ in a folder.
+  // Such a profile, or a name without what both have in common: "nav2-jazzy" of
+  // two trees that differ in a folder.
   std::string label(std::size_t side) const;
   std::string_view verdict() const;  // "equivalent", "different", "undecided"
   ExitCode code() const;
