@@ -123,6 +123,8 @@ class KnownReports {
   virtual ~KnownReports() = default;
   virtual std::optional<Report> find(const Request& request,
                                      const Inputs& inputs) = 0;
+  // The last one of the tree, however it was then.
+  virtual std::optional<Report> last(const Request& request) = 0;
   // Of a call that no limit of time has ended or shortened.
   virtual void keep(const Request& request, const Inputs& inputs,
                     const Report& report) = 0;

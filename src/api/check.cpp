@@ -187,8 +187,13 @@ Report checked(const Request& request, CallSources& sources, Monitor* monitor,
   return called(request, sources, monitor, known,
                 [&](const Inputs& inputs, Call& call, CheckResult& result) {
                   CheckOptions options = options_of(request, inputs, call);
+                  std::optional<Report> last;
                   if (known != nullptr) {
                     options.choices.components = ComponentStore::of_program();
+                    last = known->last(request);
+                  }
+                  if (last && last->whole) {
+                    options.earlier = &last->whole->result;
                   }
                   result = btcheck::check(inputs.tree, inputs.rules, options);
                   if (first) {

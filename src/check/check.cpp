@@ -91,12 +91,24 @@ CheckedFile prepare_defaults(const BehaviorTree& tree, const SourceText& source,
   return checked;
 }
 
+// The default report of a tree that was checked before.
+std::optional<EarlierReport> report_of(const CheckResult* earlier) {
+  if (earlier == nullptr || !earlier->tree || earlier->files.empty()) {
+    return std::nullopt;
+  }
+  const CheckedFile& file = earlier->files.front();
+  if (!file.defaults) return std::nullopt;
+  return EarlierReport{*earlier->tree, *file.network, *file.defaults};
+}
+
 // What an attempt has found that was given up stays known where the limits end
 // the next one.
 DefaultReport default_answers(const BehaviorTree& tree,
                               const CompiledNetwork& system,
                               const CheckOptions& options) {
   const std::uint64_t most = options.limits.max_states;
+  const auto earlier = report_of(options.earlier);
+  const bool is_large = earlier && earlier->report.searches > 0;
   std::optional<DefaultReport> known;
   const auto attempt = [&](auto made, auto... how) {
     try {
@@ -116,18 +128,23 @@ DefaultReport default_answers(const BehaviorTree& tree,
     return known->stopped != StopReason::MaxStates || most <= most_states;
   };
   for (const auto& [reduction, most_states] : kAttempts) {
-    if (!options.wants_shortest || options.is_large ||
+    if (!options.wants_shortest || is_large ||
         reduction >= options.choices.reduction) {
       continue;
     }
     if (does(reduction, most_states)) return std::move(*known);
   }
-  if (options.choices.reduction == Reduction::Full && !options.start) {
-    if (!options.is_large && does(Reduction::Full, kStatesBeforeParts)) {
+  if (options.choices.reduction == Reduction::Full && !options.start &&
+      options.choices.parts != PartsUse::Never) {
+    if (!is_large && does(Reduction::Full, kStatesBeforeParts)) {
       return std::move(*known);
     }
+    // What the attempts have seen, the shortest runs among it.
+    std::optional<EarlierReport> seen = earlier;
+    if (known) seen.emplace(EarlierReport{tree, system.network(), *known});
     attempt(check_defaults_in_parts, options.limits,
-            options.choices.components.get(), kNodesTogether);
+            options.choices.components.get(), kNodesTogether,
+            seen ? &*seen : nullptr);
     if (known->stopped != StopReason::MaxStates) return std::move(*known);
   }
   attempt(check_defaults, options.choices.reduction, options.limits,
@@ -464,7 +481,9 @@ CheckResult check(const TreeInput& tree,
     if (doubtful.empty()) break;
     if (!look_closer(*result.tree, doubtful, closer.reading.detail)) break;
     try {
-      CheckResult again = check_once(closer, properties, options);
+      CheckOptions closer_options = options;
+      closer_options.earlier = &result;
+      CheckResult again = check_once(closer, properties, closer_options);
       if (is_cut_short(result, again)) break;
       keep_holding(result, again);
       result = std::move(again);

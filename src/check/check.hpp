@@ -39,6 +39,8 @@ struct TreeInput : InputFile {
   TreeReading reading;
 };
 
+struct CheckResult;
+
 struct CheckOptions {
   std::optional<TickSemantics> ticks;  // overrides what property files say
   SearchChoices choices = {.components = std::make_shared<ComponentStore>()};
@@ -55,9 +57,10 @@ struct CheckOptions {
   std::int64_t most_whole = kMostWhole;
   // The default report tells shortest runs where that does not cost much.
   bool wants_shortest = true;
-  // A tree much like this one was asked part by part: the whole is not tried
-  // before.
-  bool is_large = false;
+  // Of a tree much like this one, as before an edit: what its runs show here
+  // is not searched for, and where it was asked part by part the whole is not
+  // tried before. No answer depends on it. Must outlive the check.
+  const CheckResult* earlier = nullptr;
 };
 
 // One property file, or none at all, against the tree.

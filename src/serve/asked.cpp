@@ -214,6 +214,14 @@ class Recent {
     return order_.front().report;
   }
 
+  std::optional<v1::Report> last(const std::string& tree) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = std::ranges::find_if(
+        order_, [&](const Entry& each) { return each.report.tree == tree; });
+    if (found == order_.end()) return std::nullopt;
+    return found->report;
+  }
+
   // Where the process holds too much, no report may be to blame.
   void forget() {
     const std::scoped_lock lock(mutex_);
@@ -266,6 +274,9 @@ class Known final : public v1::KnownReports {
   std::optional<v1::Report> find(const v1::Request& request,
                                  const v1::Inputs& inputs) override {
     return recent().find(content(request, inputs));
+  }
+  std::optional<v1::Report> last(const v1::Request& request) override {
+    return recent().last(request.tree);
   }
   void keep(const v1::Request& request, const v1::Inputs& inputs,
             const v1::Report& report) override {

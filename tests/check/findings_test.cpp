@@ -533,7 +533,9 @@ TEST_CASE("what was told while it searched stands in a report that is cut") {
     CutOnceTold monitor;
     CheckOptions options;
     options.limits.monitor = &monitor;
-    options.wants_shortest = false;  // no first search without samples
+    // Samples are of a search of the whole, and there is none before.
+    options.wants_shortest = false;
+    options.choices.parts = PartsUse::Never;
     options.tries_repairs = false;
     const CheckResult result =
         check({name, beside_others(file_text(file.path()))}, {}, options);

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "check/parts/open_questions.hpp"
 #include "check/questions/default_questions.hpp"
 #include "check/questions/inquiry.hpp"
 #include "check/questions/reporter.hpp"
@@ -36,6 +37,12 @@ constexpr std::uint64_t kMostStatesInAll = 20'000'000;
 struct Group {
   std::vector<NodeId> nodes;
   QuestionsAsked asked;
+
+  bool asks_anything() const {
+    return asked.of_tree || asked.left_running ||
+           std::ranges::find(asked.nodes, true) != asked.nodes.end() ||
+           std::ranges::find(asked.sightings, true) != asked.sightings.end();
+  }
 };
 
 // Nodes that stand together: each a part of the tree without gaps.
@@ -191,19 +198,19 @@ class Groups {
 class PartSearch {
  public:
   PartSearch(const BehaviorTree& tree, const CompiledNetwork& whole,
-             ComponentTable& components, const Group& group,
+             std::unique_ptr<const Composition> parts, const Group& group,
              const std::vector<Sighting>& sightings, const Limits& limits,
              std::uint64_t most_states, DefaultReport& report)
-      : parts_(components, standing(whole.network(), group),
-               group.asked.of_tree),
+      : parts_(std::move(parts)),
         searched_(
-            whole, parts_, seen_by_default(tree, parts_.network(), group.asked),
-            kept_for_default(tree, parts_.network(), sightings, group.asked)),
+            whole, *parts_,
+            seen_by_default(tree, parts_->network(), group.asked),
+            kept_for_default(tree, parts_->network(), sightings, group.asked)),
         questions_(tree, searched_.system().network(), sightings, group.asked),
         limits_(limits),
         search_(searched_.system(), limits_) {
     const bool is_small =
-        2 * parts_.left_out() >= whole.network().automata.size();
+        2 * parts_->left_out() >= whole.network().automata.size();
     limits_.max_states =
         std::min(limits.max_states, is_small ? most_states : kMostStates);
     result_ = search_.run(questions_);
@@ -230,16 +237,7 @@ class PartSearch {
   }
 
  private:
-  static std::vector<bool> standing(const Network& network,
-                                    const Group& group) {
-    std::vector<bool> stands(network.automata.size(), false);
-    for (const NodeId node : group.nodes) {
-      stands[index(network.node_automaton[index(node)])] = true;
-    }
-    return stands;
-  }
-
-  Composition parts_;
+  std::unique_ptr<const Composition> parts_;
   SearchedNetwork searched_;
   DefaultQuestions questions_;
   Limits limits_;
@@ -278,14 +276,23 @@ class MonitorOfAll : public SearchMonitor {
 class SearchInParts {
  public:
   SearchInParts(const BehaviorTree& tree, const CompiledNetwork& system,
-                const Limits& limits, ComponentStore* known)
+                const Limits& limits, ComponentStore* known,
+                const EarlierReport* earlier)
       : tree_(tree),
         system_(system),
         limits_(limits),
         inquiry_(tree, system.network()),
         components_(system.network(),
                     std::vector<bool>(system.network().variables.size(), false),
-                    {}, known) {}
+                    {}, known),
+        whole_(system) {
+    if (earlier != nullptr) {
+      earlier_.emplace(tree, whole_, inquiry_.sightings(), system.network(),
+                       limits, report_, *earlier);
+    }
+    open_.emplace(system.network(), inquiry_.sightings(),
+                  earlier_ ? &earlier_->shown() : nullptr, known);
+  }
 
   DefaultReport report(std::size_t together) && {
     report_.reduction = Reduction::Full;
@@ -297,7 +304,8 @@ class SearchInParts {
     }
     // What has been found is told.
     const BudgetScope telling(nullptr);
-    Evidence evidence;
+    Evidence evidence(open_->never());
+    if (earlier_) evidence.add(earlier_->seen());
     for (const auto& each : searches_) {
       each->look_up();
       evidence.add(each->seen());
@@ -336,20 +344,27 @@ class SearchInParts {
   }
 
   // Whether all that the group asks is known then.
-  bool search(const Group& group, std::uint64_t most_states) {
+  bool search(Group group, std::uint64_t most_states) {
+    open_->leave_out_shown(group.asked);
+    if (!group.asks_anything()) return true;
     if (!goes_on()) {
       if (report_.stopped == StopReason::None) {
         report_.stopped = StopReason::MaxStates;
       }
       return false;
     }
+    auto parts = std::make_unique<const Composition>(
+        components_, standing(group), group.asked.of_tree);
+    const AskedContent content(parts->network());
+    open_->leave_out_known(content, group.asked);
+    if (!group.asks_anything()) return true;
     SearchProgress& all = report_.progress;
     Limits few = limits_;
     few.max_states -= std::min(few.max_states, all.states);
     few.max_bytes -= std::min(few.max_bytes, held_);
     few.monitor = &monitor_;
-    auto made = std::make_unique<PartSearch>(tree_, system_, components_, group,
-                                             inquiry_.sightings(), few,
+    auto made = std::make_unique<PartSearch>(tree_, system_, std::move(parts),
+                                             group, inquiry_.sightings(), few,
                                              most_states, report_);
     const auto& [stopped, is_complete, progress] = made->result();
     all.states += progress.states;
@@ -360,11 +375,21 @@ class SearchInParts {
     ++report_.searches;
     const bool knows_all = made->is_complete();
     if (!knows_all) report_.stopped = stopped;
+    if (is_complete) open_->keep(content, made->seen().questions);
     if (made->is_told()) {
       held_ += progress.bytes;
       searches_.push_back(std::move(made));
     }
     return knows_all;
+  }
+
+  std::vector<bool> standing(const Group& group) const {
+    const Network& network = system_.network();
+    std::vector<bool> stands(network.automata.size(), false);
+    for (const NodeId node : group.nodes) {
+      stands[index(network.node_automaton[index(node)])] = true;
+    }
+    return stands;
   }
 
   const BehaviorTree& tree_;
@@ -373,6 +398,9 @@ class SearchInParts {
   Inquiry inquiry_;
   ComponentTable components_;
   DefaultReport report_;
+  const SearchedNetwork whole_;
+  std::optional<EarlierRuns> earlier_;
+  std::optional<OpenQuestions> open_;
   std::vector<std::unique_ptr<PartSearch>> searches_;
   std::uint64_t held_ = 0;  // bytes
   MonitorOfAll monitor_{limits_.monitor, report_.progress};
@@ -384,8 +412,9 @@ DefaultReport check_defaults_in_parts(const BehaviorTree& tree,
                                       const CompiledNetwork& system,
                                       const Limits& limits,
                                       ComponentStore* known,
-                                      std::size_t together) {
-  return SearchInParts(tree, system, limits, known).report(together);
+                                      std::size_t together,
+                                      const EarlierReport* earlier) {
+  return SearchInParts(tree, system, limits, known, earlier).report(together);
 }
 
 }  // namespace btcheck

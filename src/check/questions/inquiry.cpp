@@ -73,9 +73,7 @@ void Inquiry::answer(const Seen& of_tree, bool is_tree_complete,
   for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
     report.nodes.push_back({NodeId{n}, {}});
     for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
-      report.nodes.back().answers[q] = evidence.possibility(
-          NodeId{n},
-          [&](const DefaultQuestions& seen) { return seen.nodes[n][q]; });
+      report.nodes.back().answers[q] = evidence.possibility(NodeId{n}, q);
     }
   }
   report_guards(evidence, report);

@@ -25,6 +25,19 @@ bool is_new_on(const KeptRun& run, const Sighting& sighting) {
 
 }  // namespace
 
+Possibility Evidence::possibility(NodeId node, std::size_t question) const {
+  Possibility answer = told(
+      [&](const DefaultQuestions& seen) {
+        return seen.nodes[index(node)][question];
+      },
+      [node](const QuestionsAsked& asked) { return asked.has_node(node); });
+  const bool is_never = !never_.empty() && never_[index(node)][question];
+  if (is_never && answer.verdict == Verdict::Undecided) {
+    answer.verdict = Verdict::Violated;
+  }
+  return answer;
+}
+
 bool Evidence::has_sighting(std::size_t i) const {
   return std::ranges::any_of(seen_, [&](const Seen& each) {
     return each.questions.sightings.found()[i].has_value();

@@ -4,9 +4,11 @@
 // suspicions.
 #pragma once
 
+#include <bitset>
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "check/findings/suspicion.hpp"
@@ -22,9 +24,15 @@ struct Seen {
   Reporter& reporter;
 };
 
+// By NodeId: what a node is known never to do.
+using NeverDone = std::vector<std::bitset<kNodeQuestionCount>>;
+
 // What all have seen, the one whose runs are shortest first.
 class Evidence {
  public:
+  Evidence() = default;
+  explicit Evidence(NeverDone never) : never_(std::move(never)) {}
+
   void add(Seen seen) { seen_.push_back(seen); }
 
   // `first` gives the state or step that the questions have noted. Of the tree:
@@ -34,12 +42,7 @@ class Evidence {
                 [](const QuestionsAsked& asked) { return asked.of_tree; });
   }
   // Of a node:
-  template <class First>
-  Possibility possibility(NodeId node, First first) const {
-    return told(first, [node](const QuestionsAsked& asked) {
-      return asked.has_node(node);
-    });
-  }
+  Possibility possibility(NodeId node, std::size_t question) const;
 
   const std::vector<Seen>& seen() const { return seen_; }
   bool has_sighting(std::size_t i) const;
@@ -59,6 +62,7 @@ class Evidence {
     return answer;
   }
 
+  NeverDone never_;
   std::vector<Seen> seen_;
 };
 

@@ -179,8 +179,7 @@ class Repairing {
   CheckOptions narrow_options() {
     CheckOptions narrow = options_;
     narrow.wants_shortest = false;
-    const auto& report = result_.files.front().defaults;
-    narrow.is_large = report && report->searches > 0;
+    narrow.earlier = &result_;
     Limits& limits = narrow.limits;
     limits.monitor = &spare_;
     limits.max_states = std::min(limits.max_states, budget_);

@@ -31,7 +31,8 @@ struct SearchChoices {
   SearchOrder order = SearchOrder::BreadthFirst;
   // Of all but branching time, where at most dead values are forgotten.
   Reduction reduction = Reduction::Full;
-  // Whether rules are asked part by part, with Reduction::Full.
+  // Whether rules are asked part by part, with Reduction::Full; Never holds for
+  // the default report as well.
   PartsUse parts = PartsUse::WhereLarge;
   unsigned threads = 1;  // for single states; no answer depends on it
   Scratch scratch = {};  // where that search goes on when memory is used up

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+//
+// Which questions of a report have to be searched for, part by part.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "check/findings/suspicion.hpp"
+#include "check/questions/default_questions.hpp"
+#include "check/questions/witnesses.hpp"
+#include "explore/components/component_store.hpp"
+#include "explore/components/network_content.hpp"
+#include "model/automata/network.hpp"
+
+namespace btcheck {
+
+// A network in which parts are asked for, by content: in equal ones equal
+// questions have equal answers.
+class AskedContent {
+ public:
+  // The network must outlive this.
+  explicit AskedContent(const Network& network)
+      : network_(network), content_(network) {}
+
+  ContentHash of(NodeId node, std::size_t question) const;
+  ContentHash of(const Sighting& sighting) const;
+
+ private:
+  std::int32_t number(NodeId node) const {
+    return content_.number(network_.node_automaton[index(node)]);
+  }
+
+  const Network& network_;
+  NetworkContent content_;
+};
+
+// What is open: neither shown by a run that is known already, nor known never
+// to be.
+class OpenQuestions {
+ public:
+  // `shown`: what runs of the whole have shown; may be null. `known`: the
+  // contents and questions of which a search has found nothing; may be null.
+  // All must outlive this.
+  OpenQuestions(const Network& network, const std::vector<Sighting>& sightings,
+                const DefaultQuestions* shown, ComponentStore* known);
+
+  // Leaves out of what is asked what runs show, and what nodes cannot do.
+  void leave_out_shown(QuestionsAsked& asked) const;
+  // What is never found in the network, as a search has found out before.
+  void leave_out_known(const AskedContent& network, QuestionsAsked& asked);
+  // Keeps what a complete search of the network has been asked for in vain.
+  void keep(const AskedContent& network, const DefaultQuestions& searched);
+
+  const NeverDone& never() const { return never_; }
+
+ private:
+  bool is_open(NodeId node, std::size_t question) const;
+  bool is_any_open(NodeId node) const;
+  // Calls visit(node, question) for each that is asked and open.
+  template <class Visit>
+  void for_each_open(const QuestionsAsked& asked, Visit&& visit) const;
+
+  const std::vector<Sighting>& sightings_;
+  const DefaultQuestions* shown_;
+  ComponentStore* known_;
+  NeverDone never_;
+};
+
+}  // namespace btcheck
