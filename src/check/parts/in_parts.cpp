@@ -39,8 +39,7 @@ struct Group {
   QuestionsAsked asked;
 
   bool asks_anything() const {
-    return asked.of_tree || asked.left_running ||
-           std::ranges::find(asked.nodes, true) != asked.nodes.end() ||
+    return asked.of_tree || asked.left_running || asked.has_any_node() ||
            std::ranges::find(asked.sightings, true) != asked.sightings.end();
   }
 };
@@ -118,9 +117,10 @@ class Groups {
   std::vector<Group> single(const Group& group) const {
     std::vector<Group> singles;
     for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
-      if (!group.asked.has_node(NodeId{n})) continue;
+      if (group.asked.nodes[n].none()) continue;
       singles.push_back(empty());
-      ask(NodeId{n}, singles.back());
+      singles.back().nodes = {NodeId{n}};
+      singles.back().asked.nodes[n] = group.asked.nodes[n];
     }
     for (std::size_t i = 0; i < sightings_.size(); ++i) {
       if (!group.asked.has_sighting(i)) continue;
@@ -173,12 +173,12 @@ class Groups {
 
   Group empty() const {
     return {{},
-            {false, false, std::vector<bool>(tree_.nodes.size(), false),
+            {false, false, std::vector<NodeQuestions>(tree_.nodes.size()),
              std::vector<bool>(sightings_.size(), false)}};
   }
   void ask(NodeId node, Group& group) const {
     group.nodes.push_back(node);
-    group.asked.nodes[index(node)] = true;
+    group.asked.nodes[index(node)].set();
   }
   static std::vector<NodeId> nodes_of(const Sighting& sighting) {
     std::vector<NodeId> nodes = {sighting.node};
@@ -226,9 +226,9 @@ class PartSearch {
     return result_.is_complete || questions_.has_all();
   }
   Seen seen() { return {questions_, *reporter_}; }
-  // Somebody will ask what was found, or that it was not.
+  // Somebody will ask what was found.
   bool is_told() const {
-    return !questions_.is_of_sightings() || !questions_.found_from().empty();
+    return questions_.asked.of_tree || !questions_.found_from().empty();
   }
   // Of sightings few runs are asked for.
   void look_up() {

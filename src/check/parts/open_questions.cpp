@@ -46,32 +46,18 @@ OpenQuestions::OpenQuestions(const Network& network,
   }
 }
 
-bool OpenQuestions::is_open(NodeId node, std::size_t question) const {
-  return !never_[index(node)][question] &&
-         !(shown_ != nullptr && shown_->nodes[index(node)][question]);
-}
-
-bool OpenQuestions::is_any_open(NodeId node) const {
-  for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
-    if (is_open(node, q)) return true;
+NodeQuestions OpenQuestions::shown(NodeId node) const {
+  NodeQuestions shown;
+  for (std::size_t q = 0; shown_ != nullptr && q < kNodeQuestionCount; ++q) {
+    shown[q] = shown_->nodes[index(node)][q].has_value();
   }
-  return false;
-}
-
-template <class Visit>
-void OpenQuestions::for_each_open(const QuestionsAsked& asked,
-                                  Visit&& visit) const {
-  for (std::uint32_t n = 0; n < never_.size(); ++n) {
-    if (!asked.has_node(NodeId{n})) continue;
-    for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
-      if (is_open(NodeId{n}, q)) visit(NodeId{n}, q);
-    }
-  }
+  return shown;
 }
 
 void OpenQuestions::leave_out_shown(QuestionsAsked& asked) const {
   for (std::uint32_t n = 0; n < asked.nodes.size(); ++n) {
-    if (asked.nodes[n]) asked.nodes[n] = is_any_open(NodeId{n});
+    NodeQuestions& open = asked.nodes[n];
+    if (open.any()) open &= ~(shown(NodeId{n}) | never_[n]);
   }
   if (shown_ == nullptr) return;
   for (std::size_t i = 0; i < asked.sightings.size(); ++i) {
@@ -82,13 +68,14 @@ void OpenQuestions::leave_out_shown(QuestionsAsked& asked) const {
 void OpenQuestions::leave_out_known(const AskedContent& network,
                                     QuestionsAsked& asked) {
   if (known_ == nullptr) return;
-  for_each_open(asked, [&](NodeId node, std::size_t question) {
-    if (known_->find(network.of(node, question))) {
-      never_[index(node)].set(question);
-    }
-  });
   for (std::uint32_t n = 0; n < asked.nodes.size(); ++n) {
-    if (asked.nodes[n]) asked.nodes[n] = is_any_open(NodeId{n});
+    for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+      if (!asked.nodes[n][q] || !known_->find(network.of(NodeId{n}, q))) {
+        continue;
+      }
+      asked.nodes[n].reset(q);
+      never_[n].set(q);
+    }
   }
   for (std::size_t i = 0; i < asked.sightings.size(); ++i) {
     if (asked.sightings[i] && known_->find(network.of(sightings_[i]))) {
@@ -99,13 +86,18 @@ void OpenQuestions::leave_out_known(const AskedContent& network,
 
 void OpenQuestions::keep(const AskedContent& network,
                          const DefaultQuestions& searched) {
-  if (known_ == nullptr) return;
-  for_each_open(searched.asked, [&](NodeId node, std::size_t question) {
-    if (searched.nodes[index(node)][question]) return;
-    known_->keep(network.of(node, question), nullptr);
-  });
-  for (std::size_t i = 0; i < sightings_.size(); ++i) {
-    if (!searched.asked.has_sighting(i) || searched.sightings.found()[i]) {
+  const QuestionsAsked& asked = searched.asked;
+  for (std::uint32_t n = 0; n < asked.nodes.size(); ++n) {
+    for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+      if (!asked.nodes[n][q] || searched.nodes[n][q]) continue;
+      never_[n].set(q);
+      if (known_ == nullptr) continue;
+      known_->keep(network.of(NodeId{n}, q), nullptr);
+    }
+  }
+  for (std::size_t i = 0; i < asked.sightings.size(); ++i) {
+    if (known_ == nullptr || !asked.sightings[i] ||
+        searched.sightings.found()[i]) {
       continue;
     }
     known_->keep(network.of(sightings_[i]), nullptr);

@@ -49,17 +49,14 @@ class OpenQuestions {
   void leave_out_shown(QuestionsAsked& asked) const;
   // What is never found in the network, as a search has found out before.
   void leave_out_known(const AskedContent& network, QuestionsAsked& asked);
-  // Keeps what a complete search of the network has been asked for in vain.
+  // What a complete search of the network has been asked for in vain is known
+  // from then on.
   void keep(const AskedContent& network, const DefaultQuestions& searched);
 
   const NeverDone& never() const { return never_; }
 
  private:
-  bool is_open(NodeId node, std::size_t question) const;
-  bool is_any_open(NodeId node) const;
-  // Calls visit(node, question) for each that is asked and open.
-  template <class Visit>
-  void for_each_open(const QuestionsAsked& asked, Visit&& visit) const;
+  NodeQuestions shown(NodeId node) const;
 
   const std::vector<Sighting>& sightings_;
   const DefaultQuestions* shown_;

@@ -57,9 +57,6 @@ DefaultQuestions::DefaultQuestions(const BehaviorTree& tree,
       left_running(tree, system),
       sightings(watched, system, asked.sightings),
       system_(system),
-      is_of_sightings_(
-          !asked.of_tree && !asked.left_running && !asked.nodes.empty() &&
-          std::ranges::find(asked.nodes, true) == asked.nodes.end()),
       question_of_edge_(system.network().edge_count(), nullptr),
       is_like_time_(system.network().edge_count(), false) {
   const Network& network = system.network();
@@ -68,10 +65,7 @@ DefaultQuestions::DefaultQuestions(const BehaviorTree& tree,
       is_like_time_[automaton.first_edge + e] = automaton.edges[e].is_like_time;
     }
   }
-  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
-    if (!asked.has_node(NodeId{n})) continue;
-    watch_node(network.automaton(NodeId{n}), nodes[n]);
-  }
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) watch_node(NodeId{n});
   for (const NodeId root : tree.roots) {
     roots_.push_back(&network.automaton(root));
   }
@@ -93,14 +87,15 @@ std::vector<StateId> DefaultQuestions::found_from() const {
   return states;
 }
 
-void DefaultQuestions::watch_node(
-    const Automaton& automaton,
-    std::array<FirstStep, kNodeQuestionCount>& questions) {
+void DefaultQuestions::watch_node(NodeId node) {
+  const Automaton& automaton = system_.network().automaton(node);
   for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+    if (!asked.has(node, q)) continue;
+    ++open_;
     const auto location = automaton.find_location(kNodeQuestionRoles[q]);
     for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
       if (automaton.edges[e].target != location) continue;
-      question_of_edge_[automaton.first_edge + e] = &questions[q];
+      question_of_edge_[automaton.first_edge + e] = &nodes[index(node)][q];
     }
   }
 }

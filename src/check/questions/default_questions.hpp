@@ -3,7 +3,9 @@
 // What the search behind the default report notes on its way.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -25,15 +27,21 @@ using FirstState = std::optional<StateId>;
 // Or by the first edge taken.
 using FirstStep = std::optional<FoundStep>;
 
+// Some of the questions of one node, by NodeQuestion.
+using NodeQuestions = std::bitset<kNodeQuestionCount>;
+
 // Which of the questions a search is for.
 struct QuestionsAsked {
   bool of_tree = true;
   bool left_running = true;
-  std::vector<bool> nodes = {};      // by NodeId; empty: all
-  std::vector<bool> sightings = {};  // by number; empty: all
+  std::vector<NodeQuestions> nodes = {};  // by NodeId; empty: all
+  std::vector<bool> sightings = {};       // by number; empty: all
 
-  bool has_node(NodeId node) const {
-    return nodes.empty() || nodes[index(node)];
+  bool has(NodeId node, std::size_t question) const {
+    return nodes.empty() || nodes[index(node)][question];
+  }
+  bool has_any_node() const {
+    return nodes.empty() || std::ranges::any_of(nodes, &NodeQuestions::any);
   }
   bool has_sighting(std::size_t number) const {
     return sightings.empty() || sightings[number];
@@ -66,7 +74,9 @@ struct DefaultQuestions : public ReachabilityVisitor {
     sightings.passed(from, before, step);
     if (step.edge == kTimeStep) return;
     FirstStep* first = question_of_edge_[step.edge];
-    if (first != nullptr && !*first) *first = FoundStep{from, step.edge};
+    if (first == nullptr || *first) return;
+    *first = FoundStep{from, step.edge};
+    --open_;
   }
 
   bool is_heard(Step step) const {
@@ -109,9 +119,14 @@ struct DefaultQuestions : public ReachabilityVisitor {
   }
 
   // Nothing is asked but for sightings.
-  bool is_of_sightings() const { return is_of_sightings_; }
-  // And each has been found.
-  bool has_all() const { return is_of_sightings_ && sightings.has_all(); }
+  bool is_of_sightings() const {
+    return !asked.of_tree && !asked.left_running && !asked.has_any_node();
+  }
+  // Nothing is asked but what can be found, and all of that has been.
+  bool has_all() const {
+    return !asked.of_tree && !asked.left_running && open_ == 0 &&
+           sightings.has_all();
+  }
 
   // From where each answer was found; some of these states more than once.
   std::vector<StateId> found_from() const;
@@ -136,12 +151,11 @@ struct DefaultQuestions : public ReachabilityVisitor {
   std::size_t beside = 0;  // bytes held by what is done then
 
  private:
-  void watch_node(const Automaton& automaton,
-                  std::array<FirstStep, kNodeQuestionCount>& questions);
+  void watch_node(NodeId node);
 
   const CompiledNetwork& system_;
-  bool is_of_sightings_;
   std::vector<FirstStep*> question_of_edge_;  // null: none
+  std::size_t open_ = 0;                      // of nodes, not yet found
   std::vector<bool> is_like_time_;            // by edge
   std::vector<const Automaton*> roots_;
 };

@@ -30,7 +30,7 @@ Possibility Evidence::possibility(NodeId node, std::size_t question) const {
       [&](const DefaultQuestions& seen) {
         return seen.nodes[index(node)][question];
       },
-      [node](const QuestionsAsked& asked) { return asked.has_node(node); });
+      [&](const QuestionsAsked& asked) { return asked.has(node, question); });
   const bool is_never = !never_.empty() && never_[index(node)][question];
   if (is_never && answer.verdict == Verdict::Undecided) {
     answer.verdict = Verdict::Violated;

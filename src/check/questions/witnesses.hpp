@@ -4,7 +4,6 @@
 // suspicions.
 #pragma once
 
-#include <bitset>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -25,7 +24,7 @@ struct Seen {
 };
 
 // By NodeId: what a node is known never to do.
-using NeverDone = std::vector<std::bitset<kNodeQuestionCount>>;
+using NeverDone = std::vector<NodeQuestions>;
 
 // What all have seen, the one whose runs are shortest first.
 class Evidence {
