@@ -476,10 +476,9 @@ CheckResult check(const TreeInput& tree,
                   const CheckOptions& options) {
   TreeInput closer = tree;
   CheckResult result = check_once(closer, properties, options);
-  while (!result.files.empty()) {
-    const std::set<std::size_t> doubtful = groups_in_doubt(result);
-    if (doubtful.empty()) break;
-    if (!look_closer(*result.tree, doubtful, closer.reading.detail)) break;
+  auto doubtful = groups_in_doubt(result);
+  while (doubtful && !doubtful->empty()) {
+    if (!look_closer(*result.tree, *doubtful, closer.reading.detail)) break;
     try {
       CheckOptions closer_options = options;
       closer_options.earlier = &result;
@@ -490,8 +489,9 @@ CheckResult check(const TreeInput& tree,
     } catch (const BudgetSpent&) {
       break;  // as a closer look that has no answer
     }
+    doubtful = groups_in_doubt(result);
   }
-  withdraw_doubtful(result);
+  if (doubtful) withdraw_doubtful(result);
   leave_out_rest(result);
   judge(options.judgement, properties, result);
   return result;

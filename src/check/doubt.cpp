@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -40,32 +41,56 @@ struct Refutation {
   bool is_for_good = false;
 };
 
+// What edges execute, by their numbers.
+class ScriptsOfEdges {
+ public:
+  explicit ScriptsOfEdges(const Network& network) {
+    for (const Automaton& automaton : network.automata) {
+      for (const Edge& edge : automaton.edges)
+        scripts_.push_back(&edge.scripts);
+    }
+  }
+  const std::vector<ScriptStep>& of(const Step& step) const {
+    static const std::vector<ScriptStep> kNone;
+    return step.edge < scripts_.size() ? *scripts_[step.edge] : kNone;
+  }
+
+ private:
+  std::vector<const std::vector<ScriptStep>*> scripts_;
+};
+
 // A run executed on real values, which only the program around the tree may
 // know; a loop until its values come again, or nothing in it is left open.
 class Execution {
  public:
-  Execution(const BehaviorTree& tree, const Network& network, const Run& run)
-      : programs_(*tree.programs),
-        network_(network),
-        run_(run),
-        values_(programs_) {}
+  Execution(const BehaviorTree& tree, const ScriptsOfEdges& scripts)
+      : programs_(*tree.programs), scripts_(scripts), values_(programs_) {}
 
-  std::optional<Refutation> refutation() {
-    const bool has_loop = run_.loop != kNoLoop;
-    const std::size_t stem = has_loop ? run_.loop : run_.steps.size();
-    if (auto refused = refusal(0, stem)) return refused;
+  std::optional<Refutation> refutation(std::span<const Step> steps) {
+    for (const Step& step : steps) {
+      if (auto refused = refusal(step)) return refused;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Refutation> refutation(const Network& network, const Run& run) {
+    const bool has_loop = run.loop != kNoLoop;
+    const std::size_t stem = has_loop ? run.loop : run.steps.size();
+    if (auto refused = refusal(run, 0, stem)) return refused;
     if (!has_loop) return std::nullopt;
     std::vector<std::vector<btcpp::ScriptValue>> seen;
-    const std::size_t length = run_.steps.size() - run_.loop;
+    const std::size_t length = run.steps.size() - run.loop;
     const std::size_t rounds =
         std::min(kMostRounds, kMostSteps / std::max<std::size_t>(length, 1));
     for (std::size_t round = 0; round <= rounds; ++round) {
       const auto& values = values_.values();
       if (std::ranges::find(seen, values) != seen.end()) return std::nullopt;
       if (seen.size() < kMostSeen) seen.push_back(values);
-      if (auto refused = refusal(run_.loop, run_.steps.size())) return refused;
+      if (auto refused = refusal(run, run.loop, run.steps.size())) {
+        return refused;
+      }
     }
-    const auto open = first_open_step();
+    const auto open = first_open_step(network, run);
     if (!open) return std::nullopt;
     return Refutation{open->program,
                       fmt::format("whether `{}` always comes out so on the "
@@ -77,25 +102,25 @@ class Execution {
   const EntryProgram& program(const ScriptStep& step) const {
     return programs_.programs[static_cast<std::size_t>(step.program)];
   }
-  const std::vector<ScriptStep>& scripts_of(const RunStep& step) const {
-    static const std::vector<ScriptStep> kNone;
-    if (step.step.edge >= network_.edge_count()) return kNone;
-    return network_.edge(step.step.edge).scripts;
-  }
 
-  std::optional<Refutation> refusal(std::size_t begin, std::size_t end) {
+  std::optional<Refutation> refusal(const Run& run, std::size_t begin,
+                                    std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      ask_budget();
-      const ScriptStep* refused = values_.refused(scripts_of(run_.steps[i]));
-      if (refused != nullptr) {
-        return Refutation{refused->program, words_of(*refused)};
-      }
-      if (values_.rests_on_enumerator()) {
-        return Refutation{scripts_of(run_.steps[i]).back().program,
-                          words_of_enumerators(run_.steps[i]), true};
-      }
+      if (auto refused = refusal(run.steps[i].step)) return refused;
     }
     return std::nullopt;
+  }
+  std::optional<Refutation> refusal(const Step& step) {
+    ask_budget();
+    const std::vector<ScriptStep>& scripts = scripts_.of(step);
+    if (scripts.empty()) return std::nullopt;
+    const ScriptStep* refused = values_.refused(scripts);
+    if (refused != nullptr) {
+      return Refutation{refused->program, words_of(*refused)};
+    }
+    if (!values_.rests_on_enumerator()) return std::nullopt;
+    return Refutation{scripts.back().program,
+                      words_of_enumerators(scripts.back()), true};
   }
 
   // "`battery > 20` cannot be false: battery is 199".
@@ -115,20 +140,22 @@ class Execution {
   }
 
   // "whether `{color} == RED` comes out so depends on …".
-  std::string words_of_enumerators(const RunStep& step) const {
+  std::string words_of_enumerators(const ScriptStep& step) const {
     return fmt::format(
         "`{}` may come out otherwise: it depends on an enumerator that your "
         "program registers; declare it (BT1640)",
-        program(scripts_of(step).back()).text);
+        program(step).text);
   }
 
   // A step of the loop beside which another outcome is allowed, too.
-  std::optional<ScriptStep> first_open_step() const {
-    const NetworkInterpreter interpreter(network_);
-    for (std::size_t i = run_.loop; i < run_.steps.size(); ++i) {
-      for (const ScriptStep& script : scripts_of(run_.steps[i])) {
-        if (is_open(interpreter, run_.state(i), run_.steps[i].step.edge,
-                    script)) {
+  std::optional<ScriptStep> first_open_step(const Network& network,
+                                            const Run& run) const {
+    const NetworkInterpreter interpreter(network);
+    for (std::size_t i = run.loop; i < run.steps.size(); ++i) {
+      const Step& step = run.steps[i].step;
+      for (const ScriptStep& script : scripts_.of(step)) {
+        const Automaton& automaton = network.owner_of_edge(step.edge);
+        if (is_open(interpreter, automaton, run.state(i), step.edge, script)) {
           return script;
         }
       }
@@ -136,9 +163,9 @@ class Execution {
     return std::nullopt;
   }
 
-  bool is_open(const NetworkInterpreter& interpreter, const Valuation& state,
-               std::uint32_t edge, const ScriptStep& script) const {
-    const Automaton& automaton = network_.owner_of_edge(edge);
+  static bool is_open(const NetworkInterpreter& interpreter,
+                      const Automaton& automaton, const Valuation& state,
+                      std::uint32_t edge, const ScriptStep& script) {
     for (std::uint32_t i = 0; i < automaton.edges.size(); ++i) {
       const std::uint32_t other = automaton.first_edge + i;
       const bool is_other_outcome = std::ranges::any_of(
@@ -155,8 +182,7 @@ class Execution {
   }
 
   const EntryPrograms& programs_;
-  const Network& network_;
-  const Run& run_;
+  const ScriptsOfEdges& scripts_;
   EntryExecution values_;
 };
 
@@ -168,11 +194,21 @@ struct Doubt {
 class Doubts {
  public:
   Doubts(const BehaviorTree& tree, const Network& network)
-      : tree_(tree), network_(network) {}
+      : tree_(tree), network_(network), scripts_(network) {}
 
   std::optional<Doubt> of(const std::optional<Run>& run) const {
     if (!run) return std::nullopt;
-    auto refuted = Execution(tree_, network_, *run).refutation();
+    return doubt(Execution(tree_, scripts_).refutation(network_, *run));
+  }
+
+  // States are looked at in loops alone, and there are many such runs.
+  std::optional<Doubt> of(const std::optional<KeptRun>& run) const {
+    if (!run) return std::nullopt;
+    if (run->loop() != kNoLoop) return of(std::optional(run->told()));
+    return doubt(Execution(tree_, scripts_).refutation(run->steps()));
+  }
+
+  std::optional<Doubt> doubt(std::optional<Refutation> refuted) const {
     if (!refuted) return std::nullopt;
     if (refuted->is_for_good) return Doubt{{}, std::move(refuted->words)};
     std::set<std::size_t> groups;
@@ -182,15 +218,6 @@ class Doubts {
       groups.insert(programs.entries[entry].group);
     }
     return because(std::move(groups), std::move(refuted->words));
-  }
-
-  // States are looked at in loops alone, and there are many such runs.
-  std::optional<Doubt> of(const std::optional<KeptRun>& run) const {
-    if (!run) return std::nullopt;
-    if (run->loop() != kNoLoop) return of(std::optional(run->told()));
-    Run steps;
-    for (const Step& step : run->steps()) steps.steps.push_back({step, {}});
-    return of(std::optional(std::move(steps)));
   }
 
   std::optional<Doubt> of_branching() const {
@@ -265,6 +292,7 @@ class Doubts {
 
   const BehaviorTree& tree_;
   const Network& network_;
+  const ScriptsOfEdges scripts_;
 };
 
 void withdraw(PropertyVerdict& verdict, std::string words) {
@@ -346,9 +374,13 @@ void for_each_doubt(Result& result, See see) {
       std::erase_if(file.findings, [&](const TreeFinding& finding) {
         return doubts.of(finding.run).has_value();
       });
-    } else if (file.defaults) {
+    } else {
       for (const TreeFinding& finding : file.findings) {
-        if (const auto doubt = doubts.of(finding.run)) see(*doubt);
+        auto doubt = doubts.of(finding.run);
+        if (!doubt) continue;
+        // Beside rules it is not looked for again.
+        if (!file.defaults) doubt->groups.clear();
+        see(*doubt);
       }
     }
   }
@@ -356,10 +388,12 @@ void for_each_doubt(Result& result, See see) {
 
 }  // namespace
 
-std::set<std::size_t> groups_in_doubt(const CheckResult& result) {
-  std::set<std::size_t> groups;
+std::optional<std::set<std::size_t>> groups_in_doubt(
+    const CheckResult& result) {
+  std::optional<std::set<std::size_t>> groups;
   for_each_doubt(result, [&](const Doubt& doubt) {
-    groups.insert(doubt.groups.begin(), doubt.groups.end());
+    if (!groups) groups.emplace();
+    groups->insert(doubt.groups.begin(), doubt.groups.end());
   });
   return groups;
 }

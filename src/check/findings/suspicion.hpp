@@ -61,12 +61,16 @@ struct Sighting {
   std::vector<std::pair<NodeId, NodeStatus>> with = {};  // NoRetStatus: not yet
   // A node that has begun its work again after a failure.
   std::optional<NodeId> retried = {};
+
+  friend bool operator==(const Sighting&, const Sighting&) = default;
 };
 
 // What a node answers next, with nothing of the world outside in between.
 struct Consequence {
   NodeId node{};
   LocationRole answer{};
+
+  friend bool operator==(const Consequence&, const Consequence&) = default;
 };
 
 struct Suspicion {

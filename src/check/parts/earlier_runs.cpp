@@ -2,6 +2,7 @@
 #include "check/parts/earlier_runs.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "text/budget.hpp"
@@ -9,86 +10,13 @@
 namespace btcheck {
 namespace {
 
-bool are_alike(const Node& one, const Node& other) {
-  return one.type == other.type && one.name == other.name;
-}
-
-// The automata of a network that belong to a node, or move a variable: those
-// that are the same in two networks have the same place here.
-class Counterparts {
- public:
-  Counterparts(const EarlierReport& earlier, const BehaviorTree& tree,
-               const Network& network)
-      : earlier_(earlier.network),
-        network_(network),
-        automata_(earlier.network.automata.size()),
-        nodes_(nodes_since(earlier.tree, tree)) {
-    const auto timers = timers_of(earlier_);
-    const auto timers_here = timers_of(network);
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      if (!nodes_[n]) continue;
-      const std::size_t here = index(*nodes_[n]);
-      automata_[index(earlier_.node_automaton[n])] =
-          network.node_automaton[here];
-      const std::size_t both =
-          std::min(timers[n].size(), timers_here[here].size());
-      for (std::size_t i = 0; i < both; ++i) {
-        automata_[index(timers[n][i])] = timers_here[here][i];
-      }
-    }
-    for (const Automaton& each : network.automata) {
-      if (each.kind != AutomatonKind::StateVariable) continue;
-      const auto same =
-          std::ranges::find_if(earlier_.automata, [&](const Automaton& other) {
-            return other.kind == each.kind && other.name == each.name;
-          });
-      if (same == earlier_.automata.end()) continue;
-      automata_[static_cast<std::size_t>(same - earlier_.automata.begin())] =
-          AutomatonId{
-              static_cast<std::uint32_t>(&each - network.automata.data())};
-    }
-  }
-
-  const std::optional<NodeId>& node(NodeId earlier) const {
-    return nodes_[index(earlier)];
-  }
-  std::optional<Step> step(Step step) const {
-    if (step.edge == kTimeStep) return step;
-    const Automaton& owner = earlier_.owner_of_edge(step.edge);
-    const auto& here =
-        automata_[static_cast<std::size_t>(&owner - earlier_.automata.data())];
-    if (!here) return std::nullopt;
-    const Automaton& automaton = network_.automaton(*here);
-    const std::uint32_t place = step.edge - owner.first_edge;
-    if (place >= automaton.edges.size()) return std::nullopt;
-    step.edge = automaton.first_edge + place;
-    return step;
-  }
-
- private:
-  // By NodeId.
-  static std::vector<std::vector<AutomatonId>> timers_of(
-      const Network& network) {
-    std::vector<std::vector<AutomatonId>> timers(network.node_automaton.size());
-    for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
-      const Automaton& each = network.automata[a];
-      if (each.kind != AutomatonKind::Timer) continue;
-      timers[index(each.node)].push_back(AutomatonId{a});
-    }
-    return timers;
-  }
-
-  const Network& earlier_;
-  const Network& network_;
-  std::vector<std::optional<AutomatonId>> automata_;  // by AutomatonId before
-  std::vector<std::optional<NodeId>> nodes_;
-};
-
-// A run, and what it shows first of all, if it is that a node does something.
+// A run, and what it shows first of all, where that is one thing: that a node
+// does something, or a sighting.
 struct Claim {
   const KeptRun* run = nullptr;
   std::optional<NodeId> node = {};
   std::size_t question = 0;
+  const SightedRun* sighted = nullptr;
 };
 
 std::vector<Claim> claims_of(const DefaultReport& report) {
@@ -103,6 +31,9 @@ std::vector<Claim> claims_of(const DefaultReport& report) {
       if (run) claims.push_back({&*run, each.node, q});
     }
   }
+  for (const SightedRun& each : report.sighted) {
+    claims.push_back({&each.run, {}, 0, &each});
+  }
   for (const StaleGuardReport& each : report.stale_guards) add(each.run);
   for (const LeftRunningReport& each : report.left_running) add(each.run);
   for (const TreeFinding& each : report.findings) add(each.run);
@@ -111,33 +42,47 @@ std::vector<Claim> claims_of(const DefaultReport& report) {
   return claims;
 }
 
-}  // namespace
+// Earlier runs that are runs of this network, step by step.
+class TakenOver {
+ public:
+  TakenOver(const Counterparts& here, const Network& network)
+      : here_(here), runs_(std::make_shared<RunTree>(network)) {}
 
-std::vector<std::optional<NodeId>> nodes_since(const BehaviorTree& earlier,
-                                               const BehaviorTree& tree) {
-  const std::size_t before = earlier.nodes.size();
-  const std::size_t now = tree.nodes.size();
-  const std::size_t fewer = std::min(before, now);
-  std::size_t front = 0;
-  while (front < fewer && are_alike(earlier.nodes[front], tree.nodes[front])) {
-    ++front;
+  std::optional<KeptRun> run(const KeptRun& earlier) {
+    if (earlier.loop() != kNoLoop) return std::nullopt;
+    const auto end = place(earlier.tree(), earlier.end());
+    if (!end) return std::nullopt;
+    return KeptRun(runs_, *end);
   }
-  std::size_t back = 0;
-  while (back < fewer - front && are_alike(earlier.nodes[before - 1 - back],
-                                           tree.nodes[now - 1 - back])) {
-    ++back;
-  }
-  if (before == now) front = before - back;
-  std::vector<std::optional<NodeId>> nodes(before);
-  for (std::size_t n = 0; n < before; ++n) {
-    if (n < front) {
-      nodes[n] = NodeId{static_cast<std::uint32_t>(n)};
-    } else if (n >= before - back) {
-      nodes[n] = NodeId{static_cast<std::uint32_t>(now - (before - n))};
+
+ private:
+  using Place = RunTree::Place;
+
+  std::optional<Place> place(const RunTree& tree, Place end) {
+    auto& places = places_[&tree];
+    places.try_emplace(0, Place{0});
+    std::vector<Place> way;
+    Place at = end;
+    for (; !places.contains(at); at = tree.before(at)) way.push_back(at);
+    std::optional<Place> here = places.at(at);
+    for (; !way.empty(); way.pop_back()) {
+      const auto step =
+          here ? here_.kept(tree.last_step(way.back())) : std::nullopt;
+      here = step ? std::optional(runs_->follow(*here, *step)) : std::nullopt;
+      places.emplace(way.back(), here);
     }
+    return here;
   }
-  return nodes;
-}
+
+  const Counterparts& here_;
+  std::shared_ptr<RunTree> runs_;
+  // By tree and place there; nothing where the way to it is not the same.
+  std::unordered_map<const RunTree*,
+                     std::unordered_map<Place, std::optional<Place>>>
+      places_;
+};
+
+}  // namespace
 
 StateId EarlierRuns::Walks::begin() {
   StateId start{};
@@ -180,19 +125,88 @@ void EarlierRuns::Walks::look_at(StateId state, DefaultQuestions& visitor) {
 }
 
 EarlierRuns::EarlierRuns(const BehaviorTree& tree, const SearchedNetwork& whole,
-                         const std::vector<Sighting>& sightings,
-                         const Network& network, const Limits& limits,
-                         DefaultReport& report, const EarlierReport& earlier)
-    : walks_(whole.system(), limits),
-      questions_(tree, whole.system().network(), sightings),
-      reporter_(whole, walks_, false, network, limits, report) {
+                         const Inquiry& inquiry, const Network& network,
+                         const Limits& limits, DefaultReport& report,
+                         const EarlierReport& earlier)
+    : network_(network),
+      sightings_(inquiry.sightings()),
+      consequences_(inquiry.consequences()),
+      walks_(whole.system(), limits),
+      questions_(tree, whole.system().network(), sightings_),
+      reporter_(whole, walks_, false, network, limits, report),
+      shows_(sightings_.size(), false) {
+  known_.nodes.resize(tree.nodes.size());
+  known_.sighted.resize(sightings_.size());
   const Counterparts here(earlier, tree, network);
-  const StateId start = walks_.begin();
-  for (const Claim& claim : claims_of(earlier.report)) {
-    if (claim.node) {
-      const auto& node = here.node(*claim.node);
-      if (node && questions_.nodes[index(*node)][claim.question]) continue;
+  take_over(here, earlier);
+  walk(here, earlier.report);
+  for (std::size_t i = 0; i < sightings_.size(); ++i) {
+    const auto& found = questions_.sightings.found()[i];
+    shows_[i] = known_.sighted[i] ||
+                (found && (!consequences_[i] ||
+                           reporter_.run_to(*found, *consequences_[i])));
+  }
+}
+
+NodeQuestions EarlierRuns::shown(NodeId node) const {
+  NodeQuestions shown;
+  for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+    shown[q] = known_.nodes[index(node)][q] || questions_.nodes[index(node)][q];
+  }
+  return shown;
+}
+
+std::optional<std::size_t> EarlierRuns::number_of(
+    const Counterparts& here, const SightedRun& earlier) const {
+  bool has_all = true;
+  const auto map = [&](NodeId& node) {
+    const auto& now = here.node(node);
+    has_all = has_all && now;
+    if (now) node = *now;
+  };
+  Sighting sighting = earlier.sighting;
+  map(sighting.node);
+  for (auto& [node, status] : sighting.with) map(node);
+  if (sighting.retried) map(*sighting.retried);
+  auto then = earlier.then;
+  if (then) map(then->node);
+  for (std::size_t i = 0; has_all && i < sightings_.size(); ++i) {
+    if (sightings_[i] == sighting && consequences_[i] == then) return i;
+  }
+  return std::nullopt;
+}
+
+void EarlierRuns::take_over(const Counterparts& here,
+                            const EarlierReport& earlier) {
+  TakenOver taken(here, network_);
+  for (const NodeReport& each : earlier.report.nodes) {
+    const auto& node = here.node(each.node);
+    if (!node) continue;
+    for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+      const auto& run = each.answers[q].run;
+      if (run) known_.nodes[index(*node)][q] = taken.run(*run);
     }
+  }
+  for (const SightedRun& each : earlier.report.sighted) {
+    const auto number = number_of(here, each);
+    if (number) known_.sighted[*number] = taken.run(each.run);
+  }
+}
+
+void EarlierRuns::walk(const Counterparts& here, const DefaultReport& earlier) {
+  const auto is_shown = [&](const Claim& claim) {
+    if (claim.sighted != nullptr) {
+      const auto number = number_of(here, *claim.sighted);
+      return !number || known_.sighted[*number] ||
+             questions_.sightings.found()[*number];
+    }
+    if (!claim.node) return false;
+    const auto& node = here.node(*claim.node);
+    return !node || shown(*node)[claim.question];
+  };
+  const StateId start = walks_.begin();
+  for (const Claim& claim : claims_of(earlier)) {
+    if (is_shown(claim)) continue;
     std::optional<StateId> at = start;
     for (const Step& each : claim.run->steps()) {
       const auto step = here.step(each);

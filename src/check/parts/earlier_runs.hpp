@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// The runs of a report, walked again in a tree that is much like the one it is
-// of: what can be seen on them needs no search.
+// The runs of a report, taken over or walked again in a tree that is much like
+// the one it is of: what can be seen on them needs no search.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
 #include <vector>
 
-#include "check/bind/verdict.hpp"
+#include "check/parts/counterparts.hpp"
 #include "check/questions/default_questions.hpp"
 #include "check/questions/defaults.hpp"
+#include "check/questions/inquiry.hpp"
 #include "check/questions/reporter.hpp"
 #include "check/questions/witnesses.hpp"
 #include "check/search/searched_network.hpp"
@@ -21,34 +23,24 @@
 
 namespace btcheck {
 
-// A report of a tree as it was before an edit, or of this one as far as it was
-// searched. All must outlive this.
-struct EarlierReport {
-  const BehaviorTree& tree;
-  const Network& network;
-  const DefaultReport& report;
-};
-
-// Which node of a tree was which of an earlier one, by NodeId there: alike are
-// those before the first that differs and those behind the last; what lies
-// between is where there are as many.
-std::vector<std::optional<NodeId>> nodes_since(const BehaviorTree& earlier,
-                                               const BehaviorTree& tree);
-
 class EarlierRuns {
  public:
-  // Takes each run as far as it can be taken here, the shortest first, and only
-  // those that show what has not been seen by then. Nothing of the network may
-  // be reduced. All that is given must outlive this, but for the earlier
-  // report.
+  // Runs that are runs here as they stand are taken over; each other is taken
+  // as far as it can be taken here, the shortest first, and only those that
+  // show what has not been seen by then. Nothing of the network may be reduced.
+  // All that is given must outlive this, but for the earlier report.
   EarlierRuns(const BehaviorTree& tree, const SearchedNetwork& whole,
-              const std::vector<Sighting>& sightings, const Network& network,
+              const Inquiry& inquiry, const Network& network,
               const Limits& limits, DefaultReport& report,
               const EarlierReport& earlier);
   EarlierRuns(const EarlierRuns&) = delete;
   EarlierRuns& operator=(const EarlierRuns&) = delete;
 
-  const DefaultQuestions& shown() const { return questions_; }
+  // What is seen, of what nodes do and of sightings by number.
+  NodeQuestions shown(NodeId node) const;
+  bool shows(std::size_t sighting) const { return shows_[sighting]; }
+  // Of both kinds of runs.
+  const KnownAnswers& taken_over() const { return known_; }
   Seen seen() { return {questions_, reporter_}; }
 
  private:
@@ -72,9 +64,20 @@ class EarlierRuns {
     std::unordered_map<std::uint64_t, std::optional<StateId>> taken_;
   };
 
+  void take_over(const Counterparts& here, const EarlierReport& earlier);
+  void walk(const Counterparts& here, const DefaultReport& earlier);
+  // Of one as it is here.
+  std::optional<std::size_t> number_of(const Counterparts& here,
+                                       const SightedRun& earlier) const;
+
+  const Network& network_;
+  const std::vector<Sighting>& sightings_;
+  const std::vector<std::optional<Consequence>> consequences_;
+  KnownAnswers known_;
   Walks walks_;
   DefaultQuestions questions_;
   Reporter reporter_;
+  std::vector<bool> shows_;  // by number of the sighting
 };
 
 }  // namespace btcheck

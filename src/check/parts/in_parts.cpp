@@ -287,11 +287,11 @@ class SearchInParts {
                     {}, known),
         whole_(system) {
     if (earlier != nullptr) {
-      earlier_.emplace(tree, whole_, inquiry_.sightings(), system.network(),
-                       limits, report_, *earlier);
+      earlier_.emplace(tree, whole_, inquiry_, system.network(), limits,
+                       report_, *earlier);
     }
     open_.emplace(system.network(), inquiry_.sightings(),
-                  earlier_ ? &earlier_->shown() : nullptr, known);
+                  earlier_ ? &*earlier_ : nullptr, known);
   }
 
   DefaultReport report(std::size_t together) && {
@@ -304,12 +304,16 @@ class SearchInParts {
     }
     // What has been found is told.
     const BudgetScope telling(nullptr);
-    Evidence evidence(open_->never());
+    KnownAnswers answers;
+    if (earlier_) answers = earlier_->taken_over();
+    answers.never = open_->never();
+    Evidence evidence(std::move(answers));
     if (earlier_) evidence.add(earlier_->seen());
     for (const auto& each : searches_) {
       each->look_up();
       evidence.add(each->seen());
     }
+    keep_sighted(evidence);
     PartSearch& of_tree = *searches_.front();
     std::move(inquiry_).answer(of_tree.seen(), of_tree.is_complete(), evidence,
                                report_.stopped == StopReason::None, report_);
@@ -324,6 +328,17 @@ class SearchInParts {
   }
   std::uint64_t most_states() const {
     return std::min(limits_.max_states, kMostStatesInAll);
+  }
+
+  // For a tree much like this one.
+  void keep_sighted(const Evidence& evidence) {
+    const auto consequences = inquiry_.consequences();
+    for (std::size_t i = 0; i < consequences.size(); ++i) {
+      auto run = evidence.run_to(i, consequences[i]);
+      if (!run) continue;
+      report_.sighted.push_back(
+          {inquiry_.sightings()[i], consequences[i], std::move(*run)});
+    }
   }
 
   // Of few states if it can be, else by itself. Whether all is known then.

@@ -30,9 +30,8 @@ ContentHash AskedContent::of(const Sighting& sighting) const {
 
 OpenQuestions::OpenQuestions(const Network& network,
                              const std::vector<Sighting>& sightings,
-                             const DefaultQuestions* shown,
-                             ComponentStore* known)
-    : sightings_(sightings), shown_(shown), known_(known) {
+                             const EarlierRuns* earlier, ComponentStore* known)
+    : sightings_(sightings), earlier_(earlier), known_(known) {
   for (const AutomatonId id : network.node_automaton) {
     const Automaton& automaton = network.automaton(id);
     auto& never = never_.emplace_back();
@@ -46,22 +45,16 @@ OpenQuestions::OpenQuestions(const Network& network,
   }
 }
 
-NodeQuestions OpenQuestions::shown(NodeId node) const {
-  NodeQuestions shown;
-  for (std::size_t q = 0; shown_ != nullptr && q < kNodeQuestionCount; ++q) {
-    shown[q] = shown_->nodes[index(node)][q].has_value();
-  }
-  return shown;
-}
-
 void OpenQuestions::leave_out_shown(QuestionsAsked& asked) const {
   for (std::uint32_t n = 0; n < asked.nodes.size(); ++n) {
     NodeQuestions& open = asked.nodes[n];
-    if (open.any()) open &= ~(shown(NodeId{n}) | never_[n]);
+    if (open.none()) continue;
+    open &= ~never_[n];
+    if (earlier_ != nullptr) open &= ~earlier_->shown(NodeId{n});
   }
-  if (shown_ == nullptr) return;
+  if (earlier_ == nullptr) return;
   for (std::size_t i = 0; i < asked.sightings.size(); ++i) {
-    if (shown_->sightings.found()[i]) asked.sightings[i] = false;
+    if (earlier_->shows(i)) asked.sightings[i] = false;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "check/findings/suspicion.hpp"
+#include "check/parts/earlier_runs.hpp"
 #include "check/questions/default_questions.hpp"
 #include "check/questions/witnesses.hpp"
 #include "explore/components/component_store.hpp"
@@ -39,11 +40,11 @@ class AskedContent {
 // to be.
 class OpenQuestions {
  public:
-  // `shown`: what runs of the whole have shown; may be null. `known`: the
+  // `earlier`: runs of the whole that are known; may be null. `known`: the
   // contents and questions of which a search has found nothing; may be null.
   // All must outlive this.
   OpenQuestions(const Network& network, const std::vector<Sighting>& sightings,
-                const DefaultQuestions* shown, ComponentStore* known);
+                const EarlierRuns* earlier, ComponentStore* known);
 
   // Leaves out of what is asked what runs show, and what nodes cannot do.
   void leave_out_shown(QuestionsAsked& asked) const;
@@ -56,10 +57,8 @@ class OpenQuestions {
   const NeverDone& never() const { return never_; }
 
  private:
-  NodeQuestions shown(NodeId node) const;
-
   const std::vector<Sighting>& sightings_;
-  const DefaultQuestions* shown_;
+  const EarlierRuns* earlier_;
   ComponentStore* known_;
   NeverDone never_;
 };

@@ -92,12 +92,22 @@ struct LeftRunningReport {
   std::optional<KeptRun> run;
 };
 
+// A run that ends with what a sighting describes, or on from there until what
+// has to follow.
+struct SightedRun {
+  Sighting sighting;
+  std::optional<Consequence> then;
+  KeptRun run;
+};
+
 struct DefaultReport {
   std::vector<TreeReport> tree;
   std::vector<NodeReport> nodes;                // in pre-order
   std::vector<StaleGuardReport> stale_guards;   // by action, in pre-order
   std::vector<LeftRunningReport> left_running;  // as they were found
   std::vector<TreeFinding> findings;            // ranked
+  // Of a report in parts: what was seen, told or not, for the next one.
+  std::vector<SightedRun> sighted;
   SearchProgress progress;
   std::size_t searches = 0;  // of parts of the tree; 0: one of the whole
   StopReason stopped = StopReason::None;

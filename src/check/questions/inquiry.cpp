@@ -61,6 +61,16 @@ Inquiry::Inquiry(const BehaviorTree& tree, const Network& network)
   }
 }
 
+std::vector<std::optional<Consequence>> Inquiry::consequences() const {
+  std::vector<std::optional<Consequence>> all;
+  for (const Suspicion& each : suspicions_) {
+    all.insert(all.end(), each.shown_by.size(), each.then);
+    all.insert(all.end(), each.cleared_by.size(), std::nullopt);
+  }
+  all.resize(sightings_.size());
+  return all;
+}
+
 void Inquiry::answer(const Seen& of_tree, bool is_tree_complete,
                      const Evidence& evidence, bool is_complete,
                      DefaultReport& report) && {

@@ -3,6 +3,7 @@
 // What the default report asks of a tree, and what comes of the answers.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "check/findings/normal_tree.hpp"
@@ -21,6 +22,8 @@ class Inquiry {
 
   const std::vector<Sighting>& sightings() const { return sightings_; }
   const std::vector<Suspicion>& suspicions() const { return suspicions_; }
+  // By number of the sighting: what has to follow on the run that shows it.
+  std::vector<std::optional<Consequence>> consequences() const;
 
   // Writes what is known into a report. `of_tree` has been asked for the tree
   // as a whole, of all its states if `is_tree_complete`; with `is_complete` all

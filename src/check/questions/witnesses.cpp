@@ -26,12 +26,16 @@ bool is_new_on(const KeptRun& run, const Sighting& sighting) {
 }  // namespace
 
 Possibility Evidence::possibility(NodeId node, std::size_t question) const {
+  if (!known_.nodes.empty() && known_.nodes[index(node)][question]) {
+    return {Verdict::Holds, known_.nodes[index(node)][question]};
+  }
   Possibility answer = told(
       [&](const DefaultQuestions& seen) {
         return seen.nodes[index(node)][question];
       },
       [&](const QuestionsAsked& asked) { return asked.has(node, question); });
-  const bool is_never = !never_.empty() && never_[index(node)][question];
+  const NeverDone& never = known_.never;
+  const bool is_never = !never.empty() && never[index(node)][question];
   if (is_never && answer.verdict == Verdict::Undecided) {
     answer.verdict = Verdict::Violated;
   }
@@ -39,6 +43,7 @@ Possibility Evidence::possibility(NodeId node, std::size_t question) const {
 }
 
 bool Evidence::has_sighting(std::size_t i) const {
+  if (!known_.sighted.empty() && known_.sighted[i]) return true;
   return std::ranges::any_of(seen_, [&](const Seen& each) {
     return each.questions.sightings.found()[i].has_value();
   });
@@ -46,6 +51,9 @@ bool Evidence::has_sighting(std::size_t i) const {
 
 std::optional<KeptRun> Evidence::run_to(
     std::size_t sighting, const std::optional<Consequence>& then) const {
+  if (!known_.sighted.empty() && known_.sighted[sighting]) {
+    return known_.sighted[sighting];
+  }
   for (const auto& [questions, reporter] : seen_) {
     const auto& found = questions.sightings.found()[sighting];
     if (!found) continue;

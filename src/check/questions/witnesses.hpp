@@ -4,6 +4,7 @@
 // suspicions.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -26,11 +27,21 @@ struct Seen {
 // By NodeId: what a node is known never to do.
 using NeverDone = std::vector<NodeQuestions>;
 
+// What is known before any search.
+struct KnownAnswers {
+  NeverDone never;
+  // By NodeId: runs that end with what the node is asked for; empty: none.
+  std::vector<std::array<std::optional<KeptRun>, kNodeQuestionCount>> nodes;
+  // By number: those with a run to the sighting, and on until what has to
+  // follow; empty: none.
+  std::vector<std::optional<KeptRun>> sighted;
+};
+
 // What all have seen, the one whose runs are shortest first.
 class Evidence {
  public:
   Evidence() = default;
-  explicit Evidence(NeverDone never) : never_(std::move(never)) {}
+  explicit Evidence(KnownAnswers known) : known_(std::move(known)) {}
 
   void add(Seen seen) { seen_.push_back(seen); }
 
@@ -61,7 +72,7 @@ class Evidence {
     return answer;
   }
 
-  NeverDone never_;
+  KnownAnswers known_;
   std::vector<Seen> seen_;
 };
 

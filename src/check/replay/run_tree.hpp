@@ -27,11 +27,16 @@ class RunTree {
   // The network must outlive this.
   explicit RunTree(const Network& network);
 
-  // The place one step further. `state` is the one it leads to.
+  // The place one step further. `state` is the one it leads to; without it,
+  // it is computed where somebody asks.
   Place follow(Place from, const Step& step, const Valuation& state);
+  Place follow(Place from, const Step& step);
   Valuation state(Place place) const;
   // From the start to there, and the units of time that pass on the way.
   std::vector<Step> steps_to(Place place) const;
+  // The place before, not of the start, and the step from there.
+  Place before(Place place) const { return branches_[place].from; }
+  const Step& last_step(Place place) const { return branches_[place].step; }
   int ticks_to(Place place) const { return branches_[place].ticks; }
   std::size_t length_to(Place place) const { return branches_[place].depth; }
 
@@ -39,6 +44,9 @@ class RunTree {
   const NetworkInterpreter& interpreter() const { return interpreter_; }
 
  private:
+  // And whether it is new.
+  std::pair<Place, bool> branch(Place from, const Step& step);
+
   struct Branch {
     Place from = 0;
     std::uint32_t depth = 0;
@@ -61,6 +69,9 @@ class KeptRun {
       : tree_(std::move(tree)), end_(end), loop_(std::move(loop)) {}
 
   const Network& network() const { return tree_->network(); }
+  const RunTree& tree() const { return *tree_; }
+  // Where it has come to before its loop.
+  RunTree::Place end() const { return end_; }
   bool is_empty() const { return step_count() == 0; }
   std::size_t step_count() const {
     return tree_->length_to(end_) + loop_.size();

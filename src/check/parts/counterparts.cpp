@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "check/parts/counterparts.hpp"
+
+#include <algorithm>
+
+#include "explore/components/cut_part.hpp"
+
+namespace btcheck {
+namespace {
+
+bool are_alike(const Node& one, const Node& other) {
+  return one.type == other.type && one.name == other.name;
+}
+
+// By NodeId.
+std::vector<std::vector<AutomatonId>> timers_of(const Network& network) {
+  std::vector<std::vector<AutomatonId>> timers(network.node_automaton.size());
+  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    const Automaton& each = network.automata[a];
+    if (each.kind != AutomatonKind::Timer) continue;
+    timers[index(each.node)].push_back(AutomatonId{a});
+  }
+  return timers;
+}
+
+}  // namespace
+
+std::vector<std::optional<NodeId>> nodes_since(const BehaviorTree& earlier,
+                                               const BehaviorTree& tree) {
+  const std::size_t before = earlier.nodes.size();
+  const std::size_t now = tree.nodes.size();
+  const std::size_t fewer = std::min(before, now);
+  std::size_t front = 0;
+  while (front < fewer && are_alike(earlier.nodes[front], tree.nodes[front])) {
+    ++front;
+  }
+  std::size_t back = 0;
+  while (back < fewer - front && are_alike(earlier.nodes[before - 1 - back],
+                                           tree.nodes[now - 1 - back])) {
+    ++back;
+  }
+  if (before == now) front = before - back;
+  std::vector<std::optional<NodeId>> nodes(before);
+  for (std::size_t n = 0; n < before; ++n) {
+    if (n < front) {
+      nodes[n] = NodeId{static_cast<std::uint32_t>(n)};
+    } else if (n >= before - back) {
+      nodes[n] = NodeId{static_cast<std::uint32_t>(now - (before - n))};
+    }
+  }
+  return nodes;
+}
+
+Counterparts::Counterparts(const EarlierReport& earlier,
+                           const BehaviorTree& tree, const Network& network)
+    : earlier_(earlier.network),
+      network_(network),
+      nodes_(nodes_since(earlier.tree, tree)),
+      automata_(earlier_.automata.size()),
+      variables_(earlier_.variables.size()),
+      is_kept_(earlier_.edge_count(), false) {
+  map_automata(tree);
+  map_variables();
+  compare();
+}
+
+void Counterparts::map_automata(const BehaviorTree& tree) {
+  const auto timers = timers_of(earlier_);
+  const auto timers_here = timers_of(network_);
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    if (!nodes_[n]) continue;
+    const std::size_t here = index(*nodes_[n]);
+    map(earlier_.node_automaton[n], network_.node_automaton[here]);
+    const std::size_t both =
+        std::min(timers[n].size(), timers_here[here].size());
+    for (std::size_t i = 0; i < both; ++i) {
+      map(timers[n][i], timers_here[here][i]);
+    }
+  }
+  // Those that move a variable have its name.
+  for (std::uint32_t a = 0; a < earlier_.automata.size(); ++a) {
+    const Automaton& each = earlier_.automata[a];
+    if (each.kind != AutomatonKind::StateVariable) continue;
+    for (std::size_t v = 0; v < tree.variables.size(); ++v) {
+      const auto& here = network_.state_automaton[v];
+      if (here && network_.automaton(*here).name == each.name) {
+        map(AutomatonId{a}, *here);
+      }
+    }
+  }
+}
+
+void Counterparts::map(VariableId earlier, VariableId here) {
+  variables_[index(earlier)] = here;
+}
+
+void Counterparts::map_variables() {
+  for (std::uint32_t a = 0; a < automata_.size(); ++a) {
+    if (!automata_[a]) continue;
+    const Automaton& one = earlier_.automata[a];
+    const Automaton& other = network_.automaton(*automata_[a]);
+    map(one.location, other.location);
+    if (one.gate && other.gate) map(*one.gate, *other.gate);
+    if (one.locals.size() == other.locals.size()) {
+      for (std::size_t i = 0; i < one.locals.size(); ++i) {
+        map(one.locals[i], other.locals[i]);
+      }
+    }
+    if (one.kind != AutomatonKind::Node) continue;
+    map(earlier_.node_status[index(one.node)],
+        network_.node_status[index(other.node)]);
+  }
+  for (const VariableId one : earlier_.state_variable) {
+    for (const VariableId other : network_.state_variable) {
+      if (earlier_.variable(one).name == network_.variable(other).name) {
+        map(one, other);
+      }
+    }
+  }
+  if (earlier_.fault && network_.fault) map(*earlier_.fault, *network_.fault);
+}
+
+bool Counterparts::is_same(const Automaton& earlier,
+                           const Automaton& here) const {
+  constexpr VariableId kNone{0xffffffff};
+  std::vector<std::int32_t> one;
+  std::vector<std::int32_t> other;
+  append(
+      earlier,
+      [&](VariableId name) { return variables_[index(name)].value_or(kNone); },
+      one);
+  append(
+      here, [](VariableId name) { return name; }, other);
+  return one == other &&
+         std::ranges::equal(earlier.locations, here.locations, {},
+                            &Location::role, &Location::role);
+}
+
+// Whatever differs has to be called before it does anything, and what all
+// others work on is as it was.
+bool Counterparts::can_keep(const std::vector<bool>& differs) const {
+  const bool is_alike =
+      earlier_.profile == network_.profile &&
+      earlier_.ticks == network_.ticks &&
+      earlier_.fault.has_value() == network_.fault.has_value();
+  if (!is_alike) return false;
+  for (std::size_t a = 0; a < network_.automata.size(); ++a) {
+    const Automaton& automaton = network_.automata[a];
+    if (!differs[a] || automaton.gate) continue;
+    // A timer waits where it begins, for its node to start it.
+    const auto begins = static_cast<std::uint32_t>(
+        network_.variable(automaton.location).initial);
+    const bool waits = std::ranges::none_of(
+        automaton.edges,
+        [&](const Edge& edge) { return index(edge.source) == begins; });
+    if (automaton.kind != AutomatonKind::Timer || !waits) return false;
+  }
+  for (std::size_t v = 0; v < variables_.size(); ++v) {
+    if (!variables_[v]) continue;
+    const Variable& one = earlier_.variables[v];
+    const Variable& other = network_.variable(*variables_[v]);
+    const bool is_own = other.owner && differs[index(*other.owner)];
+    if (one.initial != other.initial ||
+        (!is_own && (one.min != other.min || one.max != other.max))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void Counterparts::compare() {
+  std::vector<bool> differs(network_.automata.size(), true);
+  for (std::size_t a = 0; a < automata_.size(); ++a) {
+    if (!automata_[a]) continue;
+    differs[index(*automata_[a])] =
+        !is_same(earlier_.automata[a], network_.automaton(*automata_[a]));
+  }
+  // A timer does its part of what its node does.
+  for (std::size_t a = 0; a < differs.size(); ++a) {
+    const Automaton& automaton = network_.automata[a];
+    if (!differs[a] || automaton.kind != AutomatonKind::Timer) continue;
+    differs[index(network_.node_automaton[index(automaton.node)])] = true;
+  }
+  keeps_time_ = can_keep(differs);
+  if (!keeps_time_) return;
+  std::vector<bool> calls(network_.variables.size(), false);
+  for (std::size_t a = 0; a < differs.size(); ++a) {
+    const auto& gate = network_.automata[a].gate;
+    if (differs[a] && gate) calls[index(*gate)] = true;
+  }
+  for (std::size_t a = 0; a < automata_.size(); ++a) {
+    if (!automata_[a] || differs[index(*automata_[a])]) continue;
+    const Automaton& here = network_.automaton(*automata_[a]);
+    for (std::size_t e = 0; e < here.edges.size(); ++e) {
+      is_kept_[earlier_.automata[a].first_edge + e] = std::ranges::none_of(
+          here.edges[e].updates, [&](const Assignment& update) {
+            return calls[index(update.variable)];
+          });
+    }
+  }
+}
+
+std::optional<Step> Counterparts::step(Step earlier) const {
+  if (earlier.edge == kTimeStep) return earlier;
+  const Automaton& owner = earlier_.owner_of_edge(earlier.edge);
+  const auto& here =
+      automata_[static_cast<std::size_t>(&owner - earlier_.automata.data())];
+  if (!here) return std::nullopt;
+  const Automaton& automaton = network_.automaton(*here);
+  const std::uint32_t place = earlier.edge - owner.first_edge;
+  if (place >= automaton.edges.size()) return std::nullopt;
+  earlier.edge = automaton.first_edge + place;
+  return earlier;
+}
+
+std::optional<Step> Counterparts::kept(Step earlier) const {
+  const bool is_kept =
+      earlier.edge == kTimeStep ? keeps_time_ : bool{is_kept_[earlier.edge]};
+  return is_kept ? step(earlier) : std::nullopt;
+}
+
+}  // namespace btcheck

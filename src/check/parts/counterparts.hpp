@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//
+// What of a network is the same as in that of an earlier tree, as it was before
+// an edit.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "check/questions/defaults.hpp"
+#include "explore/state/transition_system.hpp"
+#include "model/automata/network.hpp"
+#include "model/tree/tree.hpp"
+
+namespace btcheck {
+
+// A report of a tree as it was before an edit, or of this one as far as it was
+// searched. All must outlive this.
+struct EarlierReport {
+  const BehaviorTree& tree;
+  const Network& network;
+  const DefaultReport& report;
+};
+
+// Which node of a tree was which of an earlier one, by NodeId there: alike are
+// those before the first that differs and those behind the last; what lies
+// between is where there are as many.
+std::vector<std::optional<NodeId>> nodes_since(const BehaviorTree& earlier,
+                                               const BehaviorTree& tree);
+
+class Counterparts {
+ public:
+  Counterparts(const EarlierReport& earlier, const BehaviorTree& tree,
+               const Network& network);
+
+  const std::optional<NodeId>& node(NodeId earlier) const {
+    return nodes_[index(earlier)];
+  }
+  // The same step here, whether it can be taken or not.
+  std::optional<Step> step(Step earlier) const;
+  // A run of the earlier network all of whose steps are kept is one of this
+  // network: whoever does something else here is called on none of them, and
+  // all that moves does what it did, on the same values.
+  std::optional<Step> kept(Step earlier) const;
+
+ private:
+  void map_automata(const BehaviorTree& tree);
+  void map_variables();
+  void map(VariableId earlier, VariableId here);
+  void map(AutomatonId earlier, AutomatonId here) {
+    automata_[index(earlier)] = here;
+  }
+  bool is_same(const Automaton& earlier, const Automaton& here) const;
+  void compare();
+  bool can_keep(const std::vector<bool>& differs) const;
+
+  const Network& earlier_;
+  const Network& network_;
+  std::vector<std::optional<NodeId>> nodes_;
+  std::vector<std::optional<AutomatonId>> automata_;  // by AutomatonId before
+  std::vector<std::optional<VariableId>> variables_;  // by VariableId before
+  bool keeps_time_ = false;
+  std::vector<bool> is_kept_;  // by number of an edge before
+};
+
+}  // namespace btcheck
