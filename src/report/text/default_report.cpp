@@ -374,7 +374,7 @@ std::string finding_text(const CheckResult& result, const CheckedFile& file,
   }
   std::vector<NodeId> shown = finding.others;
   shown.push_back(finding.node);
-  return text + brief_text(recorded(*result.tree, *file.network, run, {}),
+  return text + brief_text(recorded_steps(*result.tree, *file.network, run),
                            shown, layout.width);
 }
 

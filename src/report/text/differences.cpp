@@ -96,7 +96,7 @@ class Comparison {
   void tell(const CheckResult& of, const CheckedFile& file, const KeptRun& run,
             const std::vector<NodeId>& nodes) {
     if (run.is_empty()) return;
-    text_ += brief_text(recorded(*of.tree, *file.network, run.told(), {}),
+    text_ += brief_text(recorded_steps(*of.tree, *file.network, run.told()),
                         nodes, layout_.width);
   }
 

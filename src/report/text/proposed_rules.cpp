@@ -95,9 +95,9 @@ std::string proposed_text(const CheckResult& result, const CheckedFile& file,
   }
   text += marked("#", wrapped("Not so, is it meant? " + proposal.title, 0, 78));
   if (verdict.run) {
-    text += marked(
-        "#", brief_text(recorded(*result.tree, *file.network, *verdict.run, {}),
-                        verdict.subjects.nodes, kLineWidth));
+    text += marked("#", brief_text(recorded_steps(*result.tree, *file.network,
+                                                  *verdict.run),
+                                   verdict.subjects.nodes, kLineWidth));
   }
   return text + marked("#", rule);
 }

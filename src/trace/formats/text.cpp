@@ -221,7 +221,7 @@ std::string run_text(const RecordedRun& run, const TextStyle& style) {
 
 std::string run_text(const BehaviorTree& tree, const Network& network,
                      const Run& run, const TextStyle& style) {
-  return run_text(recorded(tree, network, run, {}), style);
+  return run_text(recorded_steps(tree, network, run), style);
 }
 
 namespace {

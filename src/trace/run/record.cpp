@@ -160,12 +160,20 @@ RecordedState StateRecorder::begin(const Valuation& state) const {
 
 RecordedState StateRecorder::take(const Valuation& before,
                                   const RunStep& step) {
+  RecordedState state = take_step(before, step);
+  show(step.after, state);
+  return state;
+}
+
+RecordedState StateRecorder::take_step(const Valuation& before,
+                                       const RunStep& step) {
   RecordedState state;
   time_ += step.step.elapsed;
   static_cast<RecordedStep&>(state) =
       recorded_step(tree_, network_, before, step);
   note(step, state);
-  show(step.after, state);
+  state.time = time_;
+  state.tick = tick_;
   return state;
 }
 
@@ -190,7 +198,7 @@ void StateRecorder::note(const RunStep& step, RecordedState& state) {
   state.mover = node;
   const std::string_view reached = location(automaton.node, step.after);
   if (tree_.node(automaton.node).is_root() && reached == "tick_node") {
-    ++ticks_[node];
+    tick_ = std::max(tick_, ++ticks_[node]);
   }
   if (const auto left_with = outcome(reached)) {
     last_[node] = *left_with;
@@ -199,8 +207,6 @@ void StateRecorder::note(const RunStep& step, RecordedState& state) {
 }
 
 void StateRecorder::show(const Valuation& state, RecordedState& shown) const {
-  shown.time = time_;
-  shown.tick = *std::ranges::max_element(ticks_);
   const std::size_t count = tree_.nodes.size();
   shown.statuses.reserve(count);
   shown.locations.reserve(count);
@@ -336,8 +342,14 @@ RecordedRun recorded_heading(const BehaviorTree& tree, const Network& network,
   return record;
 }
 
+namespace {
+
+// Which states are told with what their nodes are in.
+enum class StatesTold : std::uint8_t { All, Last };
+
 RecordedRun recorded(const BehaviorTree& tree, const Network& network,
-                     const Run& run, const RunHeading& heading) {
+                     const Run& run, const RunHeading& heading,
+                     StatesTold told) {
   RecordedRun record = recorded_heading(tree, network, heading);
   StateRecorder recorder(tree, network);
   record.states.push_back(recorder.begin(run.state(0)));
@@ -345,13 +357,11 @@ RecordedRun recorded(const BehaviorTree& tree, const Network& network,
   const std::size_t count = run.state_count() - (run.loop != kNoLoop);
   for (std::size_t i = 1; i < count; ++i) {
     look_at_budget();
-    record.states.push_back(recorder.take(run.state(i - 1), run.steps[i - 1]));
-  }
-  for (const WatchedPart& part : heading.watched) {
-    record.atoms.push_back(part.text);
-    for (std::size_t i = 0; i < record.states.size(); ++i) {
-      record.states[i].atoms.push_back(part.at[i]);
-    }
+    const Valuation& before = run.state(i - 1);
+    const RunStep& step = run.steps[i - 1];
+    record.states.push_back(told == StatesTold::All || i + 1 == count
+                                ? recorder.take(before, step)
+                                : recorder.take_step(before, step));
   }
   if (run.loop != kNoLoop) {
     record.loop = run.loop;
@@ -359,6 +369,25 @@ RecordedRun recorded(const BehaviorTree& tree, const Network& network,
     record.back =
         recorded_step(tree, network, run.state(run.state_count() - 2), back);
     record.back_elapsed = back.step.elapsed;
+  }
+  return record;
+}
+
+}  // namespace
+
+RecordedRun recorded_steps(const BehaviorTree& tree, const Network& network,
+                           const Run& run) {
+  return recorded(tree, network, run, {}, StatesTold::Last);
+}
+
+RecordedRun recorded(const BehaviorTree& tree, const Network& network,
+                     const Run& run, const RunHeading& heading) {
+  RecordedRun record = recorded(tree, network, run, heading, StatesTold::All);
+  for (const WatchedPart& part : heading.watched) {
+    record.atoms.push_back(part.text);
+    for (std::size_t i = 0; i < record.states.size(); ++i) {
+      record.states[i].atoms.push_back(part.at[i]);
+    }
   }
   const auto within = [&](std::optional<std::size_t> state) {
     return state ? std::min(*state, record.states.size() - 1) : kNoState;

@@ -48,6 +48,8 @@ class StateRecorder {
   RecordedState begin(const Valuation& state) const;
   // The next one: a step was taken in `before`, and led to step.after.
   RecordedState take(const Valuation& before, const RunStep& step);
+  // The same without what its nodes are in.
+  RecordedState take_step(const Valuation& before, const RunStep& step);
 
  private:
   std::string_view location(NodeId node, const Valuation& state) const;
@@ -65,6 +67,7 @@ class StateRecorder {
   std::vector<Phase> last_;     // by node
   std::vector<int> last_tick_;  // of its root, when that was
   std::vector<int> ticks_;      // by root
+  int tick_ = 0;                // of them the greatest
 };
 
 // What is not read off the run. Its states are as in RecordedRun.
@@ -87,6 +90,10 @@ RecordedRun recorded_heading(const BehaviorTree& tree, const Network& network,
 
 RecordedRun recorded(const BehaviorTree& tree, const Network& network,
                      const Run& run, const RunHeading& heading);
+// Without a heading, and of no state but the last what its nodes are in: all
+// that a text of its steps takes.
+RecordedRun recorded_steps(const BehaviorTree& tree, const Network& network,
+                           const Run& run);
 
 // One of many runs, of which no property is checked; `how` it was made: "seed
 // 7", "by hand".
