@@ -17,8 +17,10 @@
 #include "check/parts/earlier_runs.hpp"
 #include "check/parts/in_parts.hpp"
 #include "check/questions/defaults.hpp"
+#include "check/replay/executed.hpp"
 #include "explore/state/step.hpp"
 #include "model/lowering.hpp"
+#include "model/tree/node_types.hpp"
 #include "model/tree_file.hpp"
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
@@ -52,13 +54,14 @@ std::string found(const DefaultReport& report, const BehaviorTree& tree) {
   return fmt::format("{}", fmt::join(all, "\n"));
 }
 
-// The run's last step brings the node to where the question asks.
+// It is a run, and its last step brings the node to where the question asks.
 bool shows(const Network& network, const KeptRun& run, NodeId node,
            NodeQuestion question) {
   const auto steps = run.steps();
   const LocationRole role =
       kNodeQuestionRoles[static_cast<std::size_t>(question)];
-  return !steps.empty() && steps.back().edge != kTimeStep &&
+  return !steps.empty() && executed(network, steps) &&
+         steps.back().edge != kTimeStep &&
          node_entering(network, steps.back().edge, role) == node;
 }
 

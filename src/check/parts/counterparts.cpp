@@ -2,8 +2,11 @@
 #include "check/parts/counterparts.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "explore/components/cut_part.hpp"
+#include "explore/reduce/call_protocol.hpp"
 
 namespace btcheck {
 namespace {
@@ -58,7 +61,8 @@ Counterparts::Counterparts(const EarlierReport& earlier,
       nodes_(nodes_since(earlier.tree, tree)),
       automata_(earlier_.automata.size()),
       variables_(earlier_.variables.size()),
-      is_kept_(earlier_.edge_count(), false) {
+      is_kept_(earlier_.edge_count(), false),
+      is_leaf_(earlier_.automata.size(), false) {
   map_automata(tree);
   map_variables();
   compare();
@@ -188,6 +192,12 @@ void Counterparts::compare() {
     const auto& gate = network_.automata[a].gate;
     if (differs[a] && gate) calls[index(*gate)] = true;
   }
+  for (std::uint32_t a = 0; a < automata_.size(); ++a) {
+    const bool is_other = automata_[a] && differs[index(*automata_[a])];
+    if (!is_other || !has_simple_turns(AutomatonId{a})) continue;
+    is_leaf_[a] = true;
+    calls[index(*network_.automaton(*automata_[a]).gate)] = false;
+  }
   for (std::size_t a = 0; a < automata_.size(); ++a) {
     if (!automata_[a] || differs[index(*automata_[a])]) continue;
     const Automaton& here = network_.automaton(*automata_[a]);
@@ -198,6 +208,104 @@ void Counterparts::compare() {
           });
     }
   }
+}
+
+// It calls nobody, needs no time, and has nothing of its own but where it
+// stands.
+bool Counterparts::has_simple_turns(AutomatonId earlier) const {
+  const auto is_simple = [](const Network& network, AutomatonId id) {
+    const Automaton& automaton = network.automaton(id);
+    if (automaton.kind != AutomatonKind::Node || !automaton.gate ||
+        !automaton.locals.empty()) {
+      return false;
+    }
+    const bool has_timer =
+        std::ranges::any_of(network.automata, [&](const Automaton& other) {
+          return other.kind == AutomatonKind::Timer &&
+                 other.node == automaton.node;
+        });
+    const bool calls =
+        std::ranges::any_of(automaton.locations, [](const Location& location) {
+          return location.role == LocationRole::Call ||
+                 location.role == LocationRole::Called;
+        });
+    return !has_timer && !calls;
+  };
+  return is_simple(earlier_, earlier) &&
+         is_simple(network_, *automata_[index(earlier)]);
+}
+
+std::optional<AutomatonId> Counterparts::leaf_of(Step earlier) const {
+  if (earlier.edge == kTimeStep) return std::nullopt;
+  const AutomatonId owner{static_cast<std::uint32_t>(
+      &earlier_.owner_of_edge(earlier.edge) - earlier_.automata.data())};
+  return is_leaf_[index(owner)] ? std::optional(owner) : std::nullopt;
+}
+
+bool Counterparts::ends_turn(Step earlier) const {
+  return btcheck::ends_turn(earlier_.owner_of_edge(earlier.edge),
+                            earlier_.edge(earlier.edge));
+}
+
+std::optional<std::vector<std::uint32_t>> Counterparts::turn(
+    AutomatonId leaf, const std::vector<Step>& steps) const {
+  constexpr std::size_t kLongest = 8;
+  const Automaton& here = network_.automaton(*automata_[index(leaf)]);
+  // What a turn has made of variables here, its own place left out.
+  using Effect = std::map<VariableId, std::int64_t>;
+  const auto add = [&](const Edge& edge, auto&& name, Effect& effect) {
+    for (const Assignment& update : edge.updates) {
+      const std::optional<VariableId> variable = name(update.variable);
+      const auto value = constant_value(update);
+      if (!variable || !value) return false;
+      if (*variable != here.location) effect[*variable] = *value;
+    }
+    return true;
+  };
+  const auto before = [&](VariableId name) { return variables_[index(name)]; };
+  Effect wanted;
+  for (const Step& step : steps) {
+    if (!add(earlier_.edge(step.edge), before, wanted)) return std::nullopt;
+  }
+  // The first edge asks what the call was for; it is asked the same here.
+  const auto asks = [&](const Edge& edge) {
+    const Expression& guard = earlier_.edge(steps.front().edge).guard;
+    if (guard.is_true()) return edge.guard.is_true();
+    const Expression asked = guard.replaced([&](const Term& term) {
+      const VariableId name{static_cast<std::uint32_t>(term.operand)};
+      return read(before(name).value_or(VariableId{0xffffffff}));
+    });
+    return asked == edge.guard;
+  };
+  const LocationId start{
+      static_cast<std::uint32_t>(network_.variable(here.location).initial)};
+  struct Way {
+    std::vector<std::uint32_t> edges;
+    LocationId at;
+    Effect effect;
+  };
+  std::vector<Way> ways = {{{}, start, {}}};
+  for (std::size_t next = 0; next < ways.size(); ++next) {
+    const Way way = ways[next];
+    if (way.edges.size() == kLongest) break;
+    for (std::uint32_t e = 0; e < here.edges.size(); ++e) {
+      const Edge& edge = here.edges[e];
+      const bool is_asked =
+          way.edges.empty() ? asks(edge) : edge.guard.is_true();
+      if (edge.source != way.at || !is_asked || edge.when.lower != 0) continue;
+      Way longer = way;
+      longer.edges.push_back(here.first_edge + e);
+      longer.at = edge.target;
+      const auto as_it_is = [](VariableId name) { return std::optional(name); };
+      if (!add(edge, as_it_is, longer.effect)) continue;
+      if (!btcheck::ends_turn(here, edge)) {
+        ways.push_back(std::move(longer));
+      } else if (longer.at == start && longer.effect == wanted) {
+        return longer.edges;
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<Step> Counterparts::step(Step earlier) const {

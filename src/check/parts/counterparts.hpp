@@ -40,9 +40,17 @@ class Counterparts {
   // The same step here, whether it can be taken or not.
   std::optional<Step> step(Step earlier) const;
   // A run of the earlier network all of whose steps are kept is one of this
-  // network: whoever does something else here is called on none of them, and
-  // all that moves does what it did, on the same values.
+  // network: all that moves does what it did, on the same values, and whoever
+  // does something else here is called on none of them, but for leaves.
   std::optional<Step> kept(Step earlier) const;
+  // Of a step of a leaf that does something else here: the leaf.
+  std::optional<AutomatonId> leaf_of(Step earlier) const;
+  bool ends_turn(Step earlier) const;
+  // A turn of such a leaf, from its call to its answer, as edges here that do
+  // to all others what it did, and leave it at its start; nothing where it has
+  // no such turn here, or may have no such turn in some state.
+  std::optional<std::vector<std::uint32_t>> turn(
+      AutomatonId leaf, const std::vector<Step>& steps) const;
 
  private:
   void map_automata(const BehaviorTree& tree);
@@ -52,6 +60,7 @@ class Counterparts {
     automata_[index(earlier)] = here;
   }
   bool is_same(const Automaton& earlier, const Automaton& here) const;
+  bool has_simple_turns(AutomatonId earlier) const;
   void compare();
   bool can_keep(const std::vector<bool>& differs) const;
 
@@ -62,6 +71,7 @@ class Counterparts {
   std::vector<std::optional<VariableId>> variables_;  // by VariableId before
   bool keeps_time_ = false;
   std::vector<bool> is_kept_;  // by number of an edge before
+  std::vector<bool> is_leaf_;  // by AutomatonId before: with such turns
 };
 
 }  // namespace btcheck

@@ -2,6 +2,7 @@
 #include "check/parts/earlier_runs.hpp"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -42,44 +43,97 @@ std::vector<Claim> claims_of(const DefaultReport& report) {
   return claims;
 }
 
-// Earlier runs that are runs of this network, step by step.
+// Earlier runs that are runs of this network.
 class TakenOver {
  public:
   TakenOver(const Counterparts& here, const Network& network)
       : here_(here), runs_(std::make_shared<RunTree>(network)) {}
 
-  std::optional<KeptRun> run(const KeptRun& earlier) {
-    if (earlier.loop() != kNoLoop) return std::nullopt;
-    const auto end = place(earlier.tree(), earlier.end());
-    if (!end) return std::nullopt;
+  // All that are asked for later.
+  void want(const KeptRun& earlier) {
+    std::vector<At>& places = places_[&earlier.tree()];
+    places.resize(earlier.tree().size());
+    for (Place at = earlier.end(); !places[at].is_wanted && at != 0;
+         at = earlier.tree().before(at)) {
+      places[at].is_wanted = true;
+    }
+  }
+  void take() {
+    for (auto& [tree, places] : places_) {
+      places[0].here = Place{0};
+      for (Place at = 1; at < places.size(); ++at) {
+        if (places[at].is_wanted) take(*tree, at, places);
+      }
+    }
+  }
+  std::optional<KeptRun> run(const KeptRun& earlier) const {
+    const auto& end = places_.at(&earlier.tree())[earlier.end()].here;
+    if (earlier.loop() != kNoLoop || !end) return std::nullopt;
+    // What such a leaf does with it is another step here.
+    const Step& last = earlier.tree().last_step(earlier.end());
+    if (here_.leaf_of(last)) return std::nullopt;
     return KeptRun(runs_, *end);
   }
 
  private:
   using Place = RunTree::Place;
 
-  std::optional<Place> place(const RunTree& tree, Place end) {
-    auto& places = places_[&tree];
-    places.try_emplace(0, Place{0});
-    std::vector<Place> way;
-    Place at = end;
-    for (; !places.contains(at); at = tree.before(at)) way.push_back(at);
-    std::optional<Place> here = places.at(at);
-    for (; !way.empty(); way.pop_back()) {
-      const auto step =
-          here ? here_.kept(tree.last_step(way.back())) : std::nullopt;
-      here = step ? std::optional(runs_->follow(*here, *step)) : std::nullopt;
-      places.emplace(way.back(), here);
+  // A place of an earlier tree.
+  struct At {
+    bool is_wanted = false;
+    std::optional<Place> here = {};
+    // Within the turn of a leaf: where that began, and its steps so far.
+    std::optional<Place> turn = {};
+    std::vector<Step> steps = {};
+  };
+
+  void take(const RunTree& tree, Place at, std::vector<At>& places) {
+    const At& before = places[tree.before(at)];
+    const Step& step = tree.last_step(at);
+    At& now = places[at];
+    if (const auto leaf = here_.leaf_of(step)) {
+      // Nobody else moves within a turn.
+      const bool is_alone =
+          before.steps.empty() || here_.leaf_of(before.steps.front()) == leaf;
+      now.turn = before.turn ? before.turn : before.here;
+      if (!is_alone || !now.turn) {
+        now.turn.reset();
+        return;
+      }
+      now.steps = before.steps;
+      now.steps.push_back(step);
+      if (!here_.ends_turn(step)) return;
+      const auto turn = turn_of(*leaf, now.steps);
+      if (turn) {
+        now.here = now.turn;
+        for (const std::uint32_t edge : *turn) {
+          now.here = runs_->add(*now.here, Step{.edge = edge});
+        }
+      }
+      now.turn.reset();
+      now.steps.clear();
+    } else if (const auto kept =
+                   before.here ? here_.kept(step) : std::optional<Step>()) {
+      now.here = runs_->add(*before.here, *kept);
     }
-    return here;
+  }
+
+  const std::optional<std::vector<std::uint32_t>>& turn_of(
+      AutomatonId leaf, const std::vector<Step>& steps) {
+    std::vector<std::uint32_t> edges;
+    for (const Step& step : steps) edges.push_back(step.edge);
+    const auto [known, is_new] = turns_.try_emplace(std::move(edges));
+    if (is_new) known->second = here_.turn(leaf, steps);
+    return known->second;
   }
 
   const Counterparts& here_;
   std::shared_ptr<RunTree> runs_;
-  // By tree and place there; nothing where the way to it is not the same.
-  std::unordered_map<const RunTree*,
-                     std::unordered_map<Place, std::optional<Place>>>
-      places_;
+  std::unordered_map<const RunTree*, std::vector<At>> places_;
+  // Of leaves, by the edges of an earlier turn.
+  std::map<std::vector<std::uint32_t>,
+           std::optional<std::vector<std::uint32_t>>>
+      turns_;
 };
 
 }  // namespace
@@ -180,6 +234,13 @@ void EarlierRuns::take_over(const Counterparts& here,
                             const EarlierReport& earlier) {
   TakenOver taken(here, network_);
   for (const NodeReport& each : earlier.report.nodes) {
+    for (const Possibility& answer : each.answers) {
+      if (answer.run) taken.want(*answer.run);
+    }
+  }
+  for (const SightedRun& each : earlier.report.sighted) taken.want(each.run);
+  taken.take();
+  for (const NodeReport& each : earlier.report.nodes) {
     const auto& node = here.node(each.node);
     if (!node) continue;
     for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
@@ -189,7 +250,8 @@ void EarlierRuns::take_over(const Counterparts& here,
   }
   for (const SightedRun& each : earlier.report.sighted) {
     const auto number = number_of(here, each);
-    if (number) known_.sighted[*number] = taken.run(each.run);
+    auto run = number ? taken.run(each.run) : std::nullopt;
+    if (run) known_.sighted[*number] = {std::move(*run), each.has_followed};
   }
 }
 

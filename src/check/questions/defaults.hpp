@@ -92,12 +92,13 @@ struct LeftRunningReport {
   std::optional<KeptRun> run;
 };
 
-// A run that ends with what a sighting describes, or on from there until what
-// has to follow.
+// A run that ends with what a sighting describes, and on from there until what
+// has to follow, if it does.
 struct SightedRun {
   Sighting sighting;
   std::optional<Consequence> then;
   KeptRun run;
+  bool has_followed = true;
 };
 
 struct DefaultReport {

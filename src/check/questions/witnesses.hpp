@@ -34,7 +34,11 @@ struct KnownAnswers {
   std::vector<std::array<std::optional<KeptRun>, kNodeQuestionCount>> nodes;
   // By number: those with a run to the sighting, and on until what has to
   // follow; empty: none.
-  std::vector<std::optional<KeptRun>> sighted;
+  struct Sighted {
+    KeptRun run;
+    bool has_followed = true;  // else it ends with the sighting
+  };
+  std::vector<std::optional<Sighted>> sighted;
 };
 
 // What all have seen, the one whose runs are shortest first.

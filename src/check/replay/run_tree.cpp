@@ -21,31 +21,24 @@ RunTree::RunTree(const Network& network)
   kept_.emplace(0, interpreter_.initial());
 }
 
-std::pair<RunTree::Place, bool> RunTree::branch(Place from, const Step& step) {
+RunTree::Place RunTree::follow(Place from, const Step& step,
+                               const Valuation& state) {
   const std::uint64_t key = std::uint64_t{from} << 32 | step.edge;
   const auto [first, last] = following_.equal_range(key);
   for (auto at = first; at != last; ++at) {
-    if (branches_[at->second].step == step) return {at->second, false};
+    if (branches_[at->second].step == step) return at->second;
   }
-  const auto made = static_cast<Place>(branches_.size());
+  const Place made = add(from, step);
+  following_.emplace(key, made);
+  const std::uint32_t apart = branches_.size() < kFirst ? kNear : kApart;
+  if (branches_[made].depth % apart == 0) kept_.emplace(made, state);
+  return made;
+}
+
+RunTree::Place RunTree::add(Place from, const Step& step) {
   branches_.push_back({from, branches_[from].depth + 1,
                        branches_[from].ticks + step.elapsed, step});
-  following_.emplace(key, made);
-  return {made, true};
-}
-
-RunTree::Place RunTree::follow(Place from, const Step& step) {
-  return branch(from, step).first;
-}
-
-RunTree::Place RunTree::follow(Place from, const Step& step,
-                               const Valuation& state) {
-  const auto [place, is_new] = branch(from, step);
-  const std::uint32_t apart = branches_.size() < kFirst ? kNear : kApart;
-  if (is_new && branches_[place].depth % apart == 0) {
-    kept_.emplace(place, state);
-  }
-  return place;
+  return static_cast<Place>(branches_.size() - 1);
 }
 
 Valuation RunTree::state(Place place) const {

@@ -27,13 +27,15 @@ class RunTree {
   // The network must outlive this.
   explicit RunTree(const Network& network);
 
-  // The place one step further. `state` is the one it leads to; without it,
-  // it is computed where somebody asks.
+  // The place one step further. `state` is the one it leads to.
   Place follow(Place from, const Step& step, const Valuation& state);
-  Place follow(Place from, const Step& step);
+  // A place of its own; the state is computed where somebody asks.
+  Place add(Place from, const Step& step);
   Valuation state(Place place) const;
   // From the start to there, and the units of time that pass on the way.
   std::vector<Step> steps_to(Place place) const;
+  // Places are numbered behind those from which they are reached.
+  std::size_t size() const { return branches_.size(); }
   // The place before, not of the start, and the step from there.
   Place before(Place place) const { return branches_[place].from; }
   const Step& last_step(Place place) const { return branches_[place].step; }
@@ -44,9 +46,6 @@ class RunTree {
   const NetworkInterpreter& interpreter() const { return interpreter_; }
 
  private:
-  // And whether it is new.
-  std::pair<Place, bool> branch(Place from, const Step& step);
-
   struct Branch {
     Place from = 0;
     std::uint32_t depth = 0;
