@@ -68,6 +68,20 @@ TEST_CASE("each run comes out of the tree as it went in, and is kept once") {
     CHECK(tree->state(ends[i]) == runs[i].state(runs[i].steps.size()));
   }
   CHECK(KeptRun(tree, 0).is_empty());
+  // As well once it is closed; and in a tree that is only added to.
+  tree->close();
+  const auto copy = std::make_shared<RunTree>(model.network);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Run& run = runs[i];
+    CHECK(tree->state(ends[i]) == run.state(run.steps.size()));
+    RunTree::Place place = 0;
+    for (const Step& step : KeptRun(tree, ends[i]).steps()) {
+      place = copy->add(place, step);
+    }
+    CHECK(copy->state(place) == run.state(run.steps.size()));
+    CHECK(KeptRun(copy, place).ticks() == KeptRun(tree, ends[i]).ticks());
+    CHECK(copy->before(place) < place);
+  }
 }
 
 }  // namespace

@@ -3,12 +3,14 @@
 // The default report asked in parts against the one of the whole, on random
 // trees under every tick semantics: the same answers, the same findings, and
 // runs that end with what they are told for. Also where some is known before:
-// from a search of the whole that was given up, or from a tree in which one
-// leaf was another.
+// from a search of the whole that was given up, from a tree in which one leaf
+// was another, or from one that has little to do with it.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -32,12 +34,24 @@ namespace {
 
 constexpr std::uint64_t kMostStatesOfTree = 20'000;
 
+// A tree with its report.
+struct Checked {
+  Checked(BehaviorTree read, TickSemantics ticks)
+      : tree(std::move(read)), network(lower(tree, ticks)), system(network) {}
+
+  BehaviorTree tree;
+  Network network;
+  CompiledNetwork system;
+  DefaultReport report;
+};
+
 struct Census {
   std::size_t trees = 0;
-  std::size_t parts = 0;  // decided in full, in three ways
+  std::size_t parts = 0;  // decided in full, in four ways
   std::size_t findings = 0;
   std::size_t stuck = 0;  // some tree question is answered no
   std::size_t never = 0;  // node questions
+  std::unique_ptr<const Checked> last;
 };
 
 // Guards are judged by the run that was found first, and there are several.
@@ -80,8 +94,10 @@ std::string difference(const BehaviorTree& tree, const Network& network,
   if (parts.tree.size() != whole.tree.size()) return "questions of the tree";
   for (std::size_t i = 0; i < whole.tree.size(); ++i) {
     census.stuck += whole.tree[i].verdict == Verdict::Violated;
+    const auto& run = parts.tree[i].run;
     if (whole.tree[i].verdict == parts.tree[i].verdict &&
-        whole.tree[i].run.has_value() == parts.tree[i].run.has_value()) {
+        whole.tree[i].run.has_value() == run.has_value() &&
+        (!run || executed(network, run->steps()))) {
       continue;
     }
     return fmt::format("tree question {}: {} and {}", i,
@@ -124,8 +140,8 @@ void edit(BehaviorTree& tree, std::uint64_t number) {
   may = !may;
 }
 
-// `edited` is the tree once more, to be changed.
-std::string flaw_of(const BehaviorTree& tree, BehaviorTree& edited,
+// `again` is the tree once more, to be changed.
+std::string flaw_of(const BehaviorTree& tree, BehaviorTree again,
                     TickSemantics ticks, Census& census) {
   const Network network = lower(tree, ticks);
   const CompiledNetwork system(network);
@@ -145,23 +161,24 @@ std::string flaw_of(const BehaviorTree& tree, BehaviorTree& edited,
   const DefaultReport begun =
       check_defaults(tree, system, Reduction::None, few);
   const EarlierReport at_first{tree, network, begun};
-  edit(edited, census.trees);
-  const Network before = lower(edited, ticks);
-  const CompiledNetwork system_before(before);
-  const DefaultReport report_before = in_parts(edited, system_before, nullptr);
-  const EarlierReport of_edited{edited, before, report_before};
-  for (const EarlierReport* earlier :
-       {static_cast<const EarlierReport*>(nullptr), &at_first, &of_edited}) {
+  edit(again, census.trees);
+  auto edited = std::make_unique<Checked>(std::move(again), ticks);
+  edited->report = in_parts(edited->tree, edited->system, nullptr);
+  std::vector<std::pair<const char*, const EarlierReport*>> ways = {
+      {"", nullptr}, {"after a few states: ", &at_first}};
+  const EarlierReport of_edited{edited->tree, edited->network, edited->report};
+  ways.emplace_back("after an edit: ", &of_edited);
+  std::optional<EarlierReport> of_last;
+  if (const Checked* last = census.last.get()) {
+    of_last.emplace(EarlierReport{last->tree, last->network, last->report});
+    ways.emplace_back("after another tree: ", &*of_last);
+  }
+  for (const auto& [words, earlier] : ways) {
     const std::string flaw = difference(
         tree, network, whole, in_parts(tree, system, earlier), census);
-    if (!flaw.empty()) {
-      return fmt::format("{}{}",
-                         earlier == nullptr     ? ""
-                         : earlier == &at_first ? "after a few states: "
-                                                : "after an edit: ",
-                         flaw);
-    }
+    if (!flaw.empty()) return words + flaw;
   }
+  census.last = std::move(edited);
   return {};
 }
 
@@ -177,7 +194,7 @@ void tell(const Census& census) {
                        << census.findings << " findings, " << census.stuck
                        << " questions of trees answered no, " << census.never
                        << " of nodes");
-  CHECK_COVERED(census.parts > 3 * census.trees / 2);
+  CHECK_COVERED(census.parts > 2 * census.trees);
   CHECK_COVERED(census.never > census.trees);
 }
 
@@ -197,7 +214,8 @@ TEST_CASE("the default report in parts is that of the whole") {
     REQUIRE(tree.value);
     const TickSemantics ticks = kTicks[i % kTicks.size()];
     CAPTURE(tick_name(ticks));
-    REQUIRE(flaw_of(*tree.value, *edited.value, ticks, census) == "");
+    REQUIRE(flaw_of(*tree.value, std::move(*edited.value), ticks, census) ==
+            "");
   }
   tell(census);
 }
@@ -218,7 +236,8 @@ TEST_CASE("the default report of XML in parts is that of the whole") {
     if (!tree.value) continue;
     const TickSemantics ticks = kTicks[i % 5 == 4 ? 3 : 0];
     CAPTURE(tick_name(ticks));
-    REQUIRE(flaw_of(*tree.value, *edited.value, ticks, census) == "");
+    REQUIRE(flaw_of(*tree.value, std::move(*edited.value), ticks, census) ==
+            "");
   }
   tell(census);
 }

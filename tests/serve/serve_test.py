@@ -44,6 +44,20 @@ def comparable(report):
     return report
 
 
+def answers(report):
+    """What is found, however long the runs are that show it."""
+    found = comparable(report)["trees"][0]
+    file = found["files"][0]
+    for node in file["nodes"]:
+        for answer in node.values():
+            if isinstance(answer, dict):
+                answer.pop("time", None)
+    for each in found["findings"]:
+        each.pop("run", None)
+    return [file["nodes"], [each["verdict"] for each in file["answers"]],
+            [(each["code"], each["message"]) for each in found["findings"]]]
+
+
 def large_tree(folder, width=16):
     """More states than can be searched in the time of this test."""
     leaves = "".join(f'<Action ID="a{i}"/>' for i in range(width))
@@ -160,6 +174,22 @@ class Serve(unittest.TestCase):
             'profile = "btcpp-4.5"\n')
         files = session.result("check", tree="t.xml")["trees"][0]["files"]
         self.assertEqual(files[0]["profile"], "btcpp-4.5")
+
+    def test_edits_of_a_tree_that_is_asked_in_parts(self):
+        text = subprocess.run([SOURCES / "bench" / "families", "drones", "2"],
+                              capture_output=True, text=True, check=True).stdout
+        tree = self.folder / "t.btf"
+        session = self.session(cwd=self.folder)
+        edits = [text, text.replace(":ID takeoff1", ":ID fly1"),
+                 text.replace("(Action :ID takeoff1)", ""), text]
+        self.assertEqual(len(set(edits)), 3)
+        for number, edited in enumerate(edits):
+            tree.write_text(edited)
+            with self.subTest(edit=number):
+                own = session.result("check", tree="t.btf", text=f"{edited}; {number}\n")
+                program = json.loads(printed(
+                    "t.btf", "--format", "json", "-q", cwd=self.folder))
+                self.assertEqual(answers(own), answers(program))
 
     def test_what_a_limit_has_shortened_is_not_known_afterwards(self):
         session = self.session()

@@ -27,6 +27,8 @@ Reporter::Reporter(const SearchedNetwork& searched,
       replayer_(searched.replayer()),
       runs_(std::make_shared<RunTree>(network)) {}
 
+Reporter::~Reporter() { runs_->close(); }
+
 void Reporter::look_up(std::vector<StateId> states) {
   // A breadth-first search numbers them as it finds them.
   std::ranges::sort(states, {}, [](StateId state) { return index(state); });

@@ -27,6 +27,9 @@ class Reporter {
   Reporter(const SearchedNetwork& searched,
            const Reachability<ReducedNetwork>& search, bool is_complete,
            const Network& network, const Limits& limits, DefaultReport& report);
+  Reporter(const Reporter&) = delete;
+  Reporter& operator=(const Reporter&) = delete;
+  ~Reporter();
 
   // Looks up the runs to these states of the search, the nearest first: where
   // no time is left for all of them, it is the longest that are not told.

@@ -35,6 +35,14 @@ RunTree::Place RunTree::follow(Place from, const Step& step,
   return made;
 }
 
+void RunTree::close() {
+  following_ = {};
+  Valuation initial = std::move(kept_.at(0));
+  kept_ = {};
+  kept_.emplace(0, std::move(initial));
+  branches_.shrink_to_fit();
+}
+
 RunTree::Place RunTree::add(Place from, const Step& step) {
   branches_.push_back({from, branches_[from].depth + 1,
                        branches_[from].ticks + step.elapsed, step});

@@ -29,6 +29,8 @@ class RunTree {
 
   // The place one step further. `state` is the one it leads to.
   Place follow(Place from, const Step& step, const Valuation& state);
+  // No steps follow any more: what that takes is given back.
+  void close();
   // A place of its own; the state is computed where somebody asks.
   Place add(Place from, const Step& step);
   Valuation state(Place place) const;
