@@ -187,6 +187,8 @@ void Counterparts::compare() {
   }
   keeps_time_ = can_keep(differs);
   if (!keeps_time_) return;
+  keeps_all_ = automata_.size() == differs.size() &&
+               std::ranges::find(differs, true) == differs.end();
   std::vector<bool> calls(network_.variables.size(), false);
   for (std::size_t a = 0; a < differs.size(); ++a) {
     const auto& gate = network_.automata[a].gate;

@@ -43,6 +43,8 @@ class Counterparts {
   // network: all that moves does what it did, on the same values, and whoever
   // does something else here is called on none of them, but for leaves.
   std::optional<Step> kept(Step earlier) const;
+  // Nothing differs: also what has not been taken on a run goes on as it did.
+  bool keeps_all() const { return keeps_all_; }
   // Of a step of a leaf that does something else here: the leaf.
   std::optional<AutomatonId> leaf_of(Step earlier) const;
   bool ends_turn(Step earlier) const;
@@ -70,6 +72,7 @@ class Counterparts {
   std::vector<std::optional<AutomatonId>> automata_;  // by AutomatonId before
   std::vector<std::optional<VariableId>> variables_;  // by VariableId before
   bool keeps_time_ = false;
+  bool keeps_all_ = false;
   std::vector<bool> is_kept_;  // by number of an edge before
   std::vector<bool> is_leaf_;  // by AutomatonId before: with such turns
 };

@@ -238,7 +238,10 @@ void EarlierRuns::take_over(const Counterparts& here,
       if (answer.run) taken.want(*answer.run);
     }
   }
-  for (const SightedRun& each : earlier.report.sighted) taken.want(each.run);
+  for (const SightedRun& each : earlier.report.sighted) {
+    taken.want(each.run);
+    if (each.followed) taken.want(*each.followed);
+  }
   taken.take();
   for (const NodeReport& each : earlier.report.nodes) {
     const auto& node = here.node(each.node);
@@ -251,7 +254,16 @@ void EarlierRuns::take_over(const Counterparts& here,
   for (const SightedRun& each : earlier.report.sighted) {
     const auto number = number_of(here, each);
     auto run = number ? taken.run(each.run) : std::nullopt;
-    if (run) known_.sighted[*number] = {std::move(*run), each.has_followed};
+    if (!run) continue;
+    // What follows may be another thing where somebody differs.
+    std::optional<KeptRun> followed;
+    if (each.then && here.keeps_all()) {
+      if (each.followed) followed = taken.run(*each.followed);
+    } else if (const auto& then = consequences_[*number]) {
+      followed = reporter_.run_on(*run, *then);
+      if (!followed) continue;
+    }
+    known_.sighted[*number] = {std::move(*run), std::move(followed)};
   }
 }
 

@@ -334,13 +334,12 @@ class SearchInParts {
   void keep_sighted(const Evidence& evidence) {
     const auto consequences = inquiry_.consequences();
     for (std::size_t i = 0; i < consequences.size(); ++i) {
-      if (!evidence.has_sighting(i)) continue;
-      auto run = evidence.run_to(i, consequences[i]);
-      const bool has_followed = run.has_value();
-      if (!run) run = evidence.run_to(i);
+      auto run = evidence.run_to(i);
       if (!run) continue;
-      report_.sighted.push_back({inquiry_.sightings()[i], consequences[i],
-                                 std::move(*run), has_followed});
+      report_.sighted.push_back(
+          {inquiry_.sightings()[i], consequences[i], std::move(*run), {}});
+      if (!consequences[i]) continue;
+      report_.sighted.back().followed = evidence.run_to(i, consequences[i]);
     }
   }
 

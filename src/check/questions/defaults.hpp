@@ -92,13 +92,13 @@ struct LeftRunningReport {
   std::optional<KeptRun> run;
 };
 
-// A run that ends with what a sighting describes, and on from there until what
+// A run that ends with what a sighting describes; and on from there until what
 // has to follow, if it does.
 struct SightedRun {
   Sighting sighting;
   std::optional<Consequence> then;
   KeptRun run;
-  bool has_followed = true;
+  std::optional<KeptRun> followed = {};
 };
 
 struct DefaultReport {

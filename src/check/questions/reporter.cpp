@@ -59,21 +59,35 @@ std::optional<KeptRun> Reporter::run_to(const FoundStep& last) {
 }
 std::optional<KeptRun> Reporter::run_to(const FoundStep& last,
                                         const Consequence& then) {
-  std::optional<Place> place = place_behind(last);
-  if (!place) return std::nullopt;
-  Valuation state = runs_->state(*place);
+  const std::optional<Place> place = place_behind(last);
+  return place ? run_on(*place, then) : std::nullopt;
+}
+
+std::optional<KeptRun> Reporter::run_on(const KeptRun& run,
+                                        const Consequence& then) {
+  Place place = 0;
+  Valuation state = interpreter_.initial();
+  for (const Step& step : run.steps()) {
+    interpreter_.take(state, step);
+    place = runs_->follow(place, step, state);
+  }
+  return run_on(place, then);
+}
+
+std::optional<KeptRun> Reporter::run_on(Place place, const Consequence& then) {
+  Valuation state = runs_->state(place);
   for (int i = 0; i < kMostFollowed; ++i) {
     const auto edge = only_edge(state);
     if (!edge) return std::nullopt;
     const Step step{.edge = *edge};
     interpreter_.take(state, step);
-    place = runs_->follow(*place, step, state);
+    place = runs_->follow(place, step, state);
     const Automaton& mover = network_.owner_of_edge(*edge);
     if (mover.kind != AutomatonKind::Node || mover.node != then.node) {
       continue;
     }
     const LocationRole role = mover.target(network_.edge(*edge)).role;
-    if (role == then.answer) return run_to(place);
+    if (role == then.answer) return KeptRun(runs_, place);
     if (is_answer(role)) return std::nullopt;
   }
   return std::nullopt;
@@ -92,12 +106,16 @@ std::optional<RunTree::Place> Reporter::place_behind(const FoundStep& last) {
 }
 
 std::optional<std::uint32_t> Reporter::only_edge(const Valuation& state) const {
-  for (std::uint32_t edge = 0; edge < network_.edge_count(); ++edge) {
-    const AutomatonKind kind = network_.owner_of_edge(edge).kind;
-    if (kind == AutomatonKind::StateVariable) continue;
-    if (!interpreter_.may_fire(state, edge)) continue;
-    if (is_choice(network_, state.variables, edge)) return std::nullopt;
-    return edge;
+  for (const Automaton& automaton : network_.automata) {
+    const bool is_called =
+        !automaton.gate || state.variables[index(*automaton.gate)] != 0;
+    if (!is_called || automaton.kind == AutomatonKind::StateVariable) continue;
+    for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
+      const std::uint32_t edge = automaton.first_edge + e;
+      if (!interpreter_.may_fire(state, edge)) continue;
+      if (is_choice(network_, state.variables, edge)) return std::nullopt;
+      return edge;
+    }
   }
   return std::nullopt;
 }

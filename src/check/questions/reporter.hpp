@@ -58,12 +58,15 @@ class Reporter {
   // The same, and on from there until the node has answered; nothing where it
   // answers otherwise, or the world outside has a say.
   std::optional<KeptRun> run_to(const FoundStep& last, const Consequence& then);
+  // Likewise on from a run of the network.
+  std::optional<KeptRun> run_on(const KeptRun& run, const Consequence& then);
 
  private:
   using Place = RunTree::Place;
 
   std::optional<KeptRun> run_to(std::optional<Place> place) const;
   std::optional<Place> place_behind(const FoundStep& last);
+  std::optional<KeptRun> run_on(Place place, const Consequence& then);
   // The step that comes next; nothing where it is not the tree's to decide.
   std::optional<std::uint32_t> only_edge(const Valuation& state) const;
   const ReducedNetwork& system() const { return searched_.system(); }

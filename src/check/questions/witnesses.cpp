@@ -52,8 +52,8 @@ bool Evidence::has_sighting(std::size_t i) const {
 std::optional<KeptRun> Evidence::run_to(
     std::size_t sighting, const std::optional<Consequence>& then) const {
   if (!known_.sighted.empty() && known_.sighted[sighting]) {
-    const auto& [run, has_followed] = *known_.sighted[sighting];
-    return has_followed || !then ? std::optional(run) : std::nullopt;
+    const auto& [run, followed] = *known_.sighted[sighting];
+    return then ? followed : run;
   }
   for (const auto& [questions, reporter] : seen_) {
     const auto& found = questions.sightings.found()[sighting];

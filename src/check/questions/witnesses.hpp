@@ -32,11 +32,11 @@ struct KnownAnswers {
   NeverDone never;
   // By NodeId: runs that end with what the node is asked for; empty: none.
   std::vector<std::array<std::optional<KeptRun>, kNodeQuestionCount>> nodes;
-  // By number: those with a run to the sighting, and on until what has to
-  // follow; empty: none.
+  // By number: runs to the sighting, and on until what has to follow; empty:
+  // none.
   struct Sighted {
     KeptRun run;
-    bool has_followed = true;  // else it ends with the sighting
+    std::optional<KeptRun> followed = {};
   };
   std::vector<std::optional<Sighted>> sighted;
 };
