@@ -108,7 +108,9 @@ DefaultReport default_answers(const BehaviorTree& tree,
                               const CheckOptions& options) {
   const std::uint64_t most = options.limits.max_states;
   const auto earlier = report_of(options.earlier);
-  const bool is_large = earlier && earlier->report.searches > 0;
+  // A much smaller one may be searched as a whole.
+  const bool is_large = earlier && earlier->report.searches > 0 &&
+                        2 * tree.nodes.size() > earlier->tree.nodes.size();
   std::optional<DefaultReport> known;
   const auto attempt = [&](auto made, auto... how) {
     try {
