@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "explore/components/cut_part.hpp"
@@ -24,6 +25,18 @@ std::vector<std::vector<AutomatonId>> timers_of(const Network& network) {
     timers[index(each.node)].push_back(AutomatonId{a});
   }
   return timers;
+}
+
+// The number of each state variable; nothing where several are called so.
+std::map<std::string_view, std::optional<std::size_t>> by_name(
+    const Network& network) {
+  std::map<std::string_view, std::optional<std::size_t>> numbers;
+  for (std::size_t v = 0; v < network.state_variable.size(); ++v) {
+    const Variable& variable = network.variable(network.state_variable[v]);
+    const auto [known, is_new] = numbers.try_emplace(variable.name, v);
+    if (!is_new) known->second.reset();
+  }
+  return numbers;
 }
 
 }  // namespace
@@ -63,12 +76,12 @@ Counterparts::Counterparts(const EarlierReport& earlier,
       variables_(earlier_.variables.size()),
       is_kept_(earlier_.edge_count(), false),
       is_leaf_(earlier_.automata.size(), false) {
-  map_automata(tree);
+  map_automata();
   map_variables();
   compare();
 }
 
-void Counterparts::map_automata(const BehaviorTree& tree) {
+void Counterparts::map_automata() {
   const auto timers = timers_of(earlier_);
   const auto timers_here = timers_of(network_);
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
@@ -81,16 +94,15 @@ void Counterparts::map_automata(const BehaviorTree& tree) {
       map(timers[n][i], timers_here[here][i]);
     }
   }
-  // Those that move a variable have its name.
-  for (std::uint32_t a = 0; a < earlier_.automata.size(); ++a) {
-    const Automaton& each = earlier_.automata[a];
-    if (each.kind != AutomatonKind::StateVariable) continue;
-    for (std::size_t v = 0; v < tree.variables.size(); ++v) {
-      const auto& here = network_.state_automaton[v];
-      if (here && network_.automaton(*here).name == each.name) {
-        map(AutomatonId{a}, *here);
-      }
-    }
+  // Those that move a variable, by its name.
+  const auto named = by_name(network_);
+  for (const auto& [name, one] : by_name(earlier_)) {
+    const auto other = named.find(name);
+    if (!one || other == named.end() || !other->second) continue;
+    map(earlier_.state_variable[*one], network_.state_variable[*other->second]);
+    const auto& mover = earlier_.state_automaton[*one];
+    const auto& mover_here = network_.state_automaton[*other->second];
+    if (mover && mover_here) map(*mover, *mover_here);
   }
 }
 
@@ -113,13 +125,6 @@ void Counterparts::map_variables() {
     if (one.kind != AutomatonKind::Node) continue;
     map(earlier_.node_status[index(one.node)],
         network_.node_status[index(other.node)]);
-  }
-  for (const VariableId one : earlier_.state_variable) {
-    for (const VariableId other : network_.state_variable) {
-      if (earlier_.variable(one).name == network_.variable(other).name) {
-        map(one, other);
-      }
-    }
   }
   if (earlier_.fault && network_.fault) map(*earlier_.fault, *network_.fault);
 }

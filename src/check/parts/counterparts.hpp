@@ -55,7 +55,7 @@ class Counterparts {
       AutomatonId leaf, const std::vector<Step>& steps) const;
 
  private:
-  void map_automata(const BehaviorTree& tree);
+  void map_automata();
   void map_variables();
   void map(VariableId earlier, VariableId here);
   void map(AutomatonId earlier, AutomatonId here) {
