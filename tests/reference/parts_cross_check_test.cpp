@@ -127,8 +127,22 @@ std::string difference(const BehaviorTree& tree, const Network& network,
   return one == other ? "" : one + "\n-- in parts\n" + other;
 }
 
-// One leaf can do less, or more.
+// One node counts to another number, where one counts.
+bool edit_count(BehaviorTree& tree, std::uint64_t number) {
+  std::vector<int*> counts;
+  for (Node& node : tree.nodes) {
+    if (node.repetitions > 1) counts.push_back(&node.repetitions);
+    const bool is_some = node.type == NodeType::Parallel && node.threshold > 1;
+    if (is_some) counts.push_back(&node.threshold);
+  }
+  if (counts.empty()) return false;
+  --*counts[number % counts.size()];
+  return true;
+}
+
+// Or one leaf can do less, or more.
 void edit(BehaviorTree& tree, std::uint64_t number) {
+  if (number % 3 == 0 && edit_count(tree, number)) return;
   std::vector<Node*> leaves;
   for (Node& node : tree.nodes) {
     if (node.children.empty()) leaves.push_back(&node);
