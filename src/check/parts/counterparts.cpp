@@ -8,6 +8,7 @@
 
 #include "explore/components/cut_part.hpp"
 #include "explore/reduce/call_protocol.hpp"
+#include "explore/state/accesses.hpp"
 
 namespace btcheck {
 namespace {
@@ -77,6 +78,7 @@ Counterparts::Counterparts(const EarlierReport& earlier,
       is_kept_(earlier_.edge_count(), false),
       is_leaf_(earlier_.automata.size(), false) {
   map_automata();
+  map_state_variables();
   map_variables();
   compare();
 }
@@ -94,7 +96,10 @@ void Counterparts::map_automata() {
       map(timers[n][i], timers_here[here][i]);
     }
   }
-  // Those that move a variable, by its name.
+}
+
+// By their names; and who moves them.
+void Counterparts::map_state_variables() {
   const auto named = by_name(network_);
   for (const auto& [name, one] : by_name(earlier_)) {
     const auto other = named.find(name);
@@ -104,10 +109,6 @@ void Counterparts::map_automata() {
     const auto& mover_here = network_.state_automaton[*other->second];
     if (mover && mover_here) map(*mover, *mover_here);
   }
-}
-
-void Counterparts::map(VariableId earlier, VariableId here) {
-  variables_[index(earlier)] = here;
 }
 
 void Counterparts::map_variables() {
@@ -131,13 +132,10 @@ void Counterparts::map_variables() {
 
 bool Counterparts::is_same(const Automaton& earlier,
                            const Automaton& here) const {
-  constexpr VariableId kNone{0xffffffff};
   std::vector<std::int32_t> one;
   std::vector<std::int32_t> other;
   append(
-      earlier,
-      [&](VariableId name) { return variables_[index(name)].value_or(kNone); },
-      one);
+      earlier, [&](VariableId name) { return name_here(name); }, one);
   append(
       here, [](VariableId name) { return name; }, other);
   return one == other &&
@@ -254,40 +252,39 @@ bool Counterparts::ends_turn(Step earlier) const {
                             earlier_.edge(earlier.edge));
 }
 
-std::optional<std::vector<std::uint32_t>> Counterparts::turn(
-    AutomatonId leaf, const std::vector<Step>& steps) const {
+std::optional<Counterparts::Edges> Counterparts::turn(
+    AutomatonId leaf, const Edges& earlier) const {
   constexpr std::size_t kLongest = 8;
+  const Automaton& owner = earlier_.automaton(leaf);
   const Automaton& here = network_.automaton(*automata_[index(leaf)]);
-  // What a turn has made of variables here, its own place left out.
+  const Automaton before =
+      with_names(owner, [&](VariableId name) { return name_here(name); });
+  // What a turn has made of variables, its own place left out.
   using Effect = std::map<VariableId, std::int64_t>;
-  const auto add = [&](const Edge& edge, auto&& name, Effect& effect) {
+  const auto add = [&](const Edge& edge, Effect& effect) {
     for (const Assignment& update : edge.updates) {
-      const std::optional<VariableId> variable = name(update.variable);
       const auto value = constant_value(update);
-      if (!variable || !value) return false;
-      if (*variable != here.location) effect[*variable] = *value;
+      if (!value) return false;
+      if (update.variable != here.location) effect[update.variable] = *value;
     }
     return true;
   };
-  const auto before = [&](VariableId name) { return variables_[index(name)]; };
+  const auto edge_before = [&](std::uint32_t number) -> const Edge& {
+    return before.edges[number - owner.first_edge];
+  };
   Effect wanted;
-  for (const Step& step : steps) {
-    if (!add(earlier_.edge(step.edge), before, wanted)) return std::nullopt;
+  for (const std::uint32_t edge : earlier) {
+    if (!add(edge_before(edge), wanted)) return std::nullopt;
   }
   // The first edge asks what the call was for; it is asked the same here.
-  const auto asks = [&](const Edge& edge) {
-    const Expression& guard = earlier_.edge(steps.front().edge).guard;
-    if (guard.is_true()) return edge.guard.is_true();
-    const Expression asked = guard.replaced([&](const Term& term) {
-      const VariableId name{static_cast<std::uint32_t>(term.operand)};
-      return read(before(name).value_or(VariableId{0xffffffff}));
-    });
-    return asked == edge.guard;
+  const Expression& asked = edge_before(earlier.front()).guard;
+  const auto may_begin = [&](const Expression& guard) {
+    return asked.is_true() ? guard.is_true() : guard == asked;
   };
   const LocationId start{
       static_cast<std::uint32_t>(network_.variable(here.location).initial)};
   struct Way {
-    std::vector<std::uint32_t> edges;
+    Edges edges;
     LocationId at;
     Effect effect;
   };
@@ -297,14 +294,13 @@ std::optional<std::vector<std::uint32_t>> Counterparts::turn(
     if (way.edges.size() == kLongest) break;
     for (std::uint32_t e = 0; e < here.edges.size(); ++e) {
       const Edge& edge = here.edges[e];
-      const bool is_asked =
-          way.edges.empty() ? asks(edge) : edge.guard.is_true();
-      if (edge.source != way.at || !is_asked || edge.when.lower != 0) continue;
+      const bool is_open =
+          way.edges.empty() ? may_begin(edge.guard) : edge.guard.is_true();
+      if (edge.source != way.at || !is_open || edge.when.lower != 0) continue;
       Way longer = way;
       longer.edges.push_back(here.first_edge + e);
       longer.at = edge.target;
-      const auto as_it_is = [](VariableId name) { return std::optional(name); };
-      if (!add(edge, as_it_is, longer.effect)) continue;
+      if (!add(edge, longer.effect)) continue;
       if (!btcheck::ends_turn(here, edge)) {
         ways.push_back(std::move(longer));
       } else if (longer.at == start && longer.effect == wanted) {

@@ -48,18 +48,25 @@ class Counterparts {
   // Of a step of a leaf that does something else here: the leaf.
   std::optional<AutomatonId> leaf_of(Step earlier) const;
   bool ends_turn(Step earlier) const;
-  // A turn of such a leaf, from its call to its answer, as edges here that do
-  // to all others what it did, and leave it at its start; nothing where it has
-  // no such turn here, or may have no such turn in some state.
-  std::optional<std::vector<std::uint32_t>> turn(
-      AutomatonId leaf, const std::vector<Step>& steps) const;
+  // A turn of such a leaf, by its edges from its call to its answer, as edges
+  // here that do to all others what it did, and leave it at its start; nothing
+  // where it has no such turn here, or may have no such turn in some state.
+  using Edges = std::vector<std::uint32_t>;
+  std::optional<Edges> turn(AutomatonId leaf, const Edges& earlier) const;
 
  private:
   void map_automata();
+  void map_state_variables();
   void map_variables();
-  void map(VariableId earlier, VariableId here);
+  void map(VariableId earlier, VariableId here) {
+    variables_[index(earlier)] = here;
+  }
   void map(AutomatonId earlier, AutomatonId here) {
     automata_[index(earlier)] = here;
+  }
+  // A variable as it is called here; none of this network where it is none.
+  VariableId name_here(VariableId earlier) const {
+    return variables_[index(earlier)].value_or(VariableId{0xffffffff});
   }
   bool is_same(const Automaton& earlier, const Automaton& here) const;
   bool has_simple_turns(AutomatonId earlier) const;

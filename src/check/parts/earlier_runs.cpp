@@ -12,15 +12,18 @@ namespace btcheck {
 namespace {
 
 // A run, and what it shows first of all, where that is one thing: that a node
-// does something, or a sighting.
+// does something, or the sighting of a number.
 struct Claim {
   const KeptRun* run = nullptr;
   std::optional<NodeId> node = {};
   std::size_t question = 0;
-  const SightedRun* sighted = nullptr;
+  std::optional<std::size_t> sighting = {};
 };
 
-std::vector<Claim> claims_of(const DefaultReport& report) {
+// `numbers`: by place in the report, of what was sighted and can be here.
+std::vector<Claim> claims_of(
+    const DefaultReport& report,
+    const std::vector<std::optional<std::size_t>>& numbers) {
   std::vector<Claim> claims;
   const auto add = [&](const std::optional<KeptRun>& run) {
     if (run) claims.push_back({&*run});
@@ -32,8 +35,9 @@ std::vector<Claim> claims_of(const DefaultReport& report) {
       if (run) claims.push_back({&*run, each.node, q});
     }
   }
-  for (const SightedRun& each : report.sighted) {
-    claims.push_back({&each.run, {}, 0, &each});
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (!numbers[i]) continue;
+    claims.push_back({&report.sighted[i].run, {}, 0, numbers[i]});
   }
   for (const StaleGuardReport& each : report.stale_guards) add(each.run);
   for (const LeftRunningReport& each : report.left_running) add(each.run);
@@ -78,13 +82,19 @@ class TakenOver {
  private:
   using Place = RunTree::Place;
 
-  // A place of an earlier tree.
+  using Edges = Counterparts::Edges;
+
+  // The turn of a leaf so far, and where it began.
+  struct Turn {
+    AutomatonId leaf{};
+    Place begin = 0;
+    Edges edges = {};
+  };
+  // A place of an earlier tree: where that is here, or within which turn.
   struct At {
     bool is_wanted = false;
     std::optional<Place> here = {};
-    // Within the turn of a leaf: where that began, and its steps so far.
-    std::optional<Place> turn = {};
-    std::vector<Step> steps = {};
+    std::optional<Turn> turn = {};
   };
 
   void take(const RunTree& tree, Place at, std::vector<At>& places) {
@@ -92,48 +102,38 @@ class TakenOver {
     const Step& step = tree.last_step(at);
     At& now = places[at];
     if (const auto leaf = here_.leaf_of(step)) {
+      std::optional<Turn> turn = before.turn;
+      if (before.here) turn = Turn{*leaf, *before.here};
       // Nobody else moves within a turn.
-      const bool is_alone =
-          before.steps.empty() || here_.leaf_of(before.steps.front()) == leaf;
-      now.turn = before.turn ? before.turn : before.here;
-      if (!is_alone || !now.turn) {
-        now.turn.reset();
-        return;
+      if (!turn || turn->leaf != *leaf) return;
+      turn->edges.push_back(step.edge);
+      if (here_.ends_turn(step)) {
+        now.here = behind(*turn);
+      } else {
+        now.turn = std::move(turn);
       }
-      now.steps = before.steps;
-      now.steps.push_back(step);
-      if (!here_.ends_turn(step)) return;
-      const auto turn = turn_of(*leaf, now.steps);
-      if (turn) {
-        now.here = now.turn;
-        for (const std::uint32_t edge : *turn) {
-          now.here = runs_->add(*now.here, Step{.edge = edge});
-        }
-      }
-      now.turn.reset();
-      now.steps.clear();
     } else if (const auto kept =
                    before.here ? here_.kept(step) : std::optional<Step>()) {
       now.here = runs_->add(*before.here, *kept);
     }
   }
 
-  const std::optional<std::vector<std::uint32_t>>& turn_of(
-      AutomatonId leaf, const std::vector<Step>& steps) {
-    std::vector<std::uint32_t> edges;
-    for (const Step& step : steps) edges.push_back(step.edge);
-    const auto [known, is_new] = turns_.try_emplace(std::move(edges));
-    if (is_new) known->second = here_.turn(leaf, steps);
-    return known->second;
+  // Where the turn that it has here leads to.
+  std::optional<Place> behind(const Turn& turn) {
+    const auto [known, is_new] = turns_.try_emplace(turn.edges);
+    if (is_new) known->second = here_.turn(turn.leaf, turn.edges);
+    if (!known->second) return std::nullopt;
+    Place place = turn.begin;
+    for (const std::uint32_t edge : *known->second) {
+      place = runs_->add(place, Step{.edge = edge});
+    }
+    return place;
   }
 
   const Counterparts& here_;
   std::shared_ptr<RunTree> runs_;
   std::unordered_map<const RunTree*, std::vector<At>> places_;
-  // Of leaves, by the edges of an earlier turn.
-  std::map<std::vector<std::uint32_t>,
-           std::optional<std::vector<std::uint32_t>>>
-      turns_;
+  std::map<Edges, std::optional<Edges>> turns_;  // by the edges of earlier ones
 };
 
 }  // namespace
@@ -153,7 +153,7 @@ std::optional<StateId> EarlierRuns::Walks::follow(StateId from,
   const std::uint64_t key = std::uint64_t{index(from)} << 32 | step.edge;
   const auto [known, is_new] = taken_.try_emplace(key);
   if (!is_new) return known->second;
-  look_at(from, visitor);
+  show(from, visitor);
   for (const auto& successor : expansion_.successors) {
     if (successor.step.edge != step.edge) continue;
     const StateId next = store_.insert(successor.key).id;
@@ -165,10 +165,14 @@ std::optional<StateId> EarlierRuns::Walks::follow(StateId from,
 }
 
 void EarlierRuns::Walks::look_at(StateId state, DefaultQuestions& visitor) {
+  if (!is_shown(state)) show(state, visitor);
+}
+
+void EarlierRuns::Walks::show(StateId state, DefaultQuestions& visitor) {
   ask_budget();
   compute(state, expansion_, visitor);
-  if (is_shown_.size() <= index(state)) is_shown_.resize(index(state) + 1);
-  if (is_shown_[index(state)]) return;
+  if (is_shown(state)) return;
+  is_shown_.resize(std::max<std::size_t>(is_shown_.size(), index(state) + 1));
   is_shown_[index(state)] = true;
   const auto& steps = expansion_.successors;
   // Where time passes and changes nothing, the state is its own successor.
@@ -192,8 +196,12 @@ EarlierRuns::EarlierRuns(const BehaviorTree& tree, const SearchedNetwork& whole,
   known_.nodes.resize(tree.nodes.size());
   known_.sighted.resize(sightings_.size());
   const Counterparts here(earlier, tree, network);
-  take_over(here, earlier);
-  walk(here, earlier.report);
+  Numbers numbers;
+  for (const SightedRun& each : earlier.report.sighted) {
+    numbers.push_back(number_of(here, each));
+  }
+  take_over(here, earlier.report, numbers);
+  walk(here, earlier.report, numbers);
   for (std::size_t i = 0; i < sightings_.size(); ++i) {
     const auto& found = questions_.sightings.found()[i];
     shows_[i] = known_.sighted[i] ||
@@ -231,19 +239,20 @@ std::optional<std::size_t> EarlierRuns::number_of(
 }
 
 void EarlierRuns::take_over(const Counterparts& here,
-                            const EarlierReport& earlier) {
+                            const DefaultReport& earlier,
+                            const Numbers& numbers) {
   TakenOver taken(here, network_);
-  for (const NodeReport& each : earlier.report.nodes) {
+  for (const NodeReport& each : earlier.nodes) {
     for (const Possibility& answer : each.answers) {
       if (answer.run) taken.want(*answer.run);
     }
   }
-  for (const SightedRun& each : earlier.report.sighted) {
+  for (const SightedRun& each : earlier.sighted) {
     taken.want(each.run);
     if (each.followed) taken.want(*each.followed);
   }
   taken.take();
-  for (const NodeReport& each : earlier.report.nodes) {
+  for (const NodeReport& each : earlier.nodes) {
     const auto& node = here.node(each.node);
     if (!node) continue;
     for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
@@ -251,45 +260,45 @@ void EarlierRuns::take_over(const Counterparts& here,
       if (run) known_.nodes[index(*node)][q] = taken.run(*run);
     }
   }
-  for (const SightedRun& each : earlier.report.sighted) {
-    const auto number = number_of(here, each);
-    auto run = number ? taken.run(each.run) : std::nullopt;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const SightedRun& each = earlier.sighted[i];
+    auto run = numbers[i] ? taken.run(each.run) : std::nullopt;
     if (!run) continue;
     // What follows may be another thing where somebody differs.
     std::optional<KeptRun> followed;
     if (each.then && here.keeps_all()) {
       if (each.followed) followed = taken.run(*each.followed);
-    } else if (const auto& then = consequences_[*number]) {
+    } else if (const auto& then = consequences_[*numbers[i]]) {
       followed = reporter_.run_on(*run, *then);
       if (!followed) continue;
     }
-    known_.sighted[*number] = {std::move(*run), std::move(followed)};
+    known_.sighted[*numbers[i]] = {std::move(*run), std::move(followed)};
   }
 }
 
-void EarlierRuns::walk(const Counterparts& here, const DefaultReport& earlier) {
+void EarlierRuns::walk(const Counterparts& here, const DefaultReport& earlier,
+                       const Numbers& numbers) {
   const auto is_shown = [&](const Claim& claim) {
-    if (claim.sighted != nullptr) {
-      const auto number = number_of(here, *claim.sighted);
-      return !number || known_.sighted[*number] ||
-             questions_.sightings.found()[*number];
+    if (claim.sighting) {
+      return known_.sighted[*claim.sighting] ||
+             questions_.sightings.found()[*claim.sighting];
     }
     if (!claim.node) return false;
     const auto& node = here.node(*claim.node);
     return !node || shown(*node)[claim.question];
   };
   const StateId start = walks_.begin();
-  for (const Claim& claim : claims_of(earlier)) {
+  for (const Claim& claim : claims_of(earlier, numbers)) {
     if (is_shown(claim)) continue;
-    std::optional<StateId> at = start;
+    StateId at = start;
     for (const Step& each : claim.run->steps()) {
       const auto step = here.step(each);
       const auto next =
-          step ? walks_.follow(*at, *step, questions_) : std::nullopt;
+          step ? walks_.follow(at, *step, questions_) : std::nullopt;
       if (!next) break;
-      at = next;
+      at = *next;
     }
-    walks_.look_at(*at, questions_);
+    walks_.look_at(at, questions_);
   }
 }
 

@@ -36,10 +36,11 @@ class EarlierRuns {
   EarlierRuns(const EarlierRuns&) = delete;
   EarlierRuns& operator=(const EarlierRuns&) = delete;
 
-  // What is seen, of what nodes do and of sightings by number.
+  // What is seen on both kinds of runs, of what nodes do and of sightings by
+  // number.
   NodeQuestions shown(NodeId node) const;
   bool shows(std::size_t sighting) const { return shows_[sighting]; }
-  // Of both kinds of runs.
+  // Those that are taken over, and what was seen on the others.
   const KnownAnswers& taken_over() const { return known_; }
   Seen seen() { return {questions_, reporter_}; }
 
@@ -58,15 +59,24 @@ class EarlierRuns {
     void look_at(StateId state, DefaultQuestions& visitor);
 
    private:
+    void show(StateId state, DefaultQuestions& visitor);
+    bool is_shown(StateId state) const {
+      return index(state) < is_shown_.size() && is_shown_[index(state)];
+    }
+
     Expansion expansion_;
     std::vector<bool> is_shown_;  // by StateId
     // By state and edge.
     std::unordered_map<std::uint64_t, std::optional<StateId>> taken_;
   };
 
-  void take_over(const Counterparts& here, const EarlierReport& earlier);
-  void walk(const Counterparts& here, const DefaultReport& earlier);
-  // Of one as it is here.
+  // By place in an earlier report: the number that a sighting has here.
+  using Numbers = std::vector<std::optional<std::size_t>>;
+
+  void take_over(const Counterparts& here, const DefaultReport& earlier,
+                 const Numbers& numbers);
+  void walk(const Counterparts& here, const DefaultReport& earlier,
+            const Numbers& numbers);
   std::optional<std::size_t> number_of(const Counterparts& here,
                                        const SightedRun& earlier) const;
 

@@ -285,14 +285,13 @@ class SearchInParts {
         components_(system.network(),
                     std::vector<bool>(system.network().variables.size(), false),
                     {}, known),
-        whole_(system) {
-    if (earlier != nullptr) {
-      earlier_.emplace(tree, whole_, inquiry_, system.network(), limits,
-                       report_, *earlier);
-    }
-    open_.emplace(system.network(), inquiry_.sightings(),
-                  earlier_ ? &*earlier_ : nullptr, known);
-  }
+        whole_(system),
+        earlier_(earlier == nullptr
+                     ? nullptr
+                     : std::make_unique<EarlierRuns>(tree, whole_, inquiry_,
+                                                     system.network(), limits,
+                                                     report_, *earlier)),
+        open_(system.network(), inquiry_.sightings(), earlier_.get(), known) {}
 
   DefaultReport report(std::size_t together) && {
     report_.reduction = Reduction::Full;
@@ -306,7 +305,7 @@ class SearchInParts {
     const BudgetScope telling(nullptr);
     KnownAnswers answers;
     if (earlier_) answers = earlier_->taken_over();
-    answers.never = open_->never();
+    answers.never = open_.never();
     Evidence evidence(std::move(answers));
     if (earlier_) evidence.add(earlier_->seen());
     for (const auto& each : searches_) {
@@ -362,7 +361,7 @@ class SearchInParts {
 
   // Whether all that the group asks is known then.
   bool search(Group group, std::uint64_t most_states) {
-    open_->leave_out_shown(group.asked);
+    open_.leave_out_shown(group.asked);
     if (!group.asks_anything()) return true;
     if (!goes_on()) {
       if (report_.stopped == StopReason::None) {
@@ -373,7 +372,7 @@ class SearchInParts {
     auto parts = std::make_unique<const Composition>(
         components_, standing(group), group.asked.of_tree);
     const AskedContent content(parts->network());
-    open_->leave_out_known(content, group.asked);
+    open_.leave_out_known(content, group.asked);
     if (!group.asks_anything()) return true;
     SearchProgress& all = report_.progress;
     Limits few = limits_;
@@ -392,7 +391,7 @@ class SearchInParts {
     ++report_.searches;
     const bool knows_all = made->is_complete();
     if (!knows_all) report_.stopped = stopped;
-    if (is_complete) open_->keep(content, made->seen().questions);
+    if (is_complete) open_.keep(content, made->seen().questions);
     if (made->is_told()) {
       held_ += progress.bytes;
       searches_.push_back(std::move(made));
@@ -416,8 +415,8 @@ class SearchInParts {
   ComponentTable components_;
   DefaultReport report_;
   const SearchedNetwork whole_;
-  std::optional<EarlierRuns> earlier_;
-  std::optional<OpenQuestions> open_;
+  const std::unique_ptr<EarlierRuns> earlier_;
+  OpenQuestions open_;
   std::vector<std::unique_ptr<PartSearch>> searches_;
   std::uint64_t held_ = 0;  // bytes
   MonitorOfAll monitor_{limits_.monitor, report_.progress};
