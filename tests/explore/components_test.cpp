@@ -120,6 +120,28 @@ TEST_CASE("a node may have a local that no edge speaks of") {
   }
 }
 
+TEST_CASE("one that is too large for a network is made use of in others") {
+  const Network network = network_of(
+      tree("<ReactiveSequence><Action ID=\"Go\"/><Sleep msec=\"2000\"/>"
+           "</ReactiveSequence>"));
+  ComponentTable table(network,
+                       std::vector<bool>(network.variables.size(), false),
+                       {.edges = 50});
+  std::size_t large = 0;
+  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    const Automaton& automaton = network.automata[a];
+    if (automaton.kind != AutomatonKind::Node) continue;
+    const PlacedComponent* of_it = table.of(AutomatonId{a});
+    REQUIRE(of_it != nullptr);
+    const bool is_small = of_it->shape->automaton.edges.size() <= 50;
+    CHECK((table.placeable(AutomatonId{a}, PartSide::Inside) != nullptr) ==
+          is_small);
+    if (!is_small) ++large;
+  }
+  // The Sleep counts; above it nobody can tell for how long.
+  CHECK(large == 1);
+}
+
 TEST_CASE("of components as many are kept as there is room for") {
   constexpr std::size_t kMost = 100'000;
   ComponentStore store(kMost);

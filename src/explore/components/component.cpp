@@ -181,6 +181,15 @@ const PlacedComponent* ComponentTable::of(AutomatonId root, PartSide side) {
   return known->has_value() ? &**known : nullptr;
 }
 
+const PlacedComponent* ComponentTable::placeable(AutomatonId root,
+                                                 PartSide side) {
+  const PlacedComponent* component = of(root, side);
+  const bool may_stand =
+      component != nullptr &&
+      component->shape->automaton.edges.size() <= limits_.edges;
+  return may_stand ? component : nullptr;
+}
+
 const Automaton& ComponentTable::automaton_of(AutomatonId root, PartSide side) {
   PlacedComponent& placed =
       known_[static_cast<std::size_t>(side)][index(root)]->value();

@@ -98,7 +98,8 @@ class Component {
   };
   struct Drawn {
     std::uint32_t label = 0;
-    std::uint32_t to = 0;  // of places_
+    std::uint32_t from = 0;  // of places_
+    std::uint32_t to = 0;
     bool is_loop = false;  // silent, and leads back
   };
   // Of one state: the values of own_.
@@ -161,9 +162,10 @@ class ComponentTable {
  public:
   using Place = Component::Place;
   struct Limits {
-    std::size_t states = 50'000;
-    std::size_t edges = 5'000;  // of one automaton
-    std::size_t all_states = 400'000;
+    std::size_t states = 200'000;
+    std::size_t edges = 5'000;         // of one that stands in a network
+    std::size_t inner_edges = 50'000;  // of one that other parts are made of
+    std::size_t all_states = 1'000'000;
     std::size_t automata = 2'000;  // of the network: in a larger one are none
   };
 
@@ -184,6 +186,8 @@ class ComponentTable {
   // Null where the part cannot be one, or is too large to be. Outside of a root
   // is nothing.
   const PlacedComponent* of(AutomatonId root, PartSide side = PartSide::Inside);
+  // The same, where it is small enough to stand in a network.
+  const PlacedComponent* placeable(AutomatonId root, PartSide side);
   // Of a component that can be one: as it stands in the network.
   const Automaton& automaton_of(AutomatonId root, PartSide side);
   // The nodes that touch a variable, in order; none where somebody else does.

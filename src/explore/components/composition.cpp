@@ -167,7 +167,8 @@ void Composition::add_clock(AutomatonId root, PartSide side,
 }
 
 bool Composition::place_outside_of(AutomatonId root) {
-  const PlacedComponent* component = components_->of(root, PartSide::Outside);
+  const PlacedComponent* component =
+      components_->placeable(root, PartSide::Outside);
   if (component == nullptr) return false;
   const Network& whole = components_->network();
   const AutomatonId tree = components_->root_of(root);
@@ -192,7 +193,8 @@ bool Composition::place_outside_of(AutomatonId root) {
 
 void Composition::place_below(AutomatonId root, const std::vector<bool>& kept) {
   const PlacedComponent* component =
-      kept[index(root)] ? nullptr : components_->of(root);
+      kept[index(root)] ? nullptr
+                        : components_->placeable(root, PartSide::Inside);
   if (component == nullptr) {
     for (const AutomatonId child : components_->children(root)) {
       place_below(child, kept);

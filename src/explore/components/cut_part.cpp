@@ -35,7 +35,7 @@ CutPart::CutPart(const ComponentTable& all, AutomatonId root, PartSide side,
        {static_cast<std::size_t>(network_.ticks),
         static_cast<std::size_t>(side_), std::size_t{is_called_},
         std::size_t{waits_instantly_}, std::size_t{gate_.has_value()},
-        all.limits_.states, all.limits_.edges}) {
+        all.limits_.states, all.limits_.inner_edges}) {
     put(value);
   }
 }

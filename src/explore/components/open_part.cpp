@@ -41,6 +41,34 @@ OpenPart::OpenPart(const CutPart& part, const ComponentTable::Limits& limits)
   for (std::size_t i = 0; i < part.own().size(); ++i) {
     place_of_[index(part.own()[i])] = static_cast<int>(i);
   }
+  for (const CutPart::Moving& member : members_) {
+    edges_.push_back(edges_by_place(member));
+  }
+}
+
+std::vector<std::vector<std::uint32_t>> OpenPart::edges_by_place(
+    const CutPart::Moving& member) {
+  const Component* shape = member.shape;
+  const auto& edges = member.automaton.edges;
+  std::vector<std::vector<std::uint32_t>> by_place(
+      member.automaton.locations.size() +
+      (shape == nullptr ? 0 : static_cast<std::size_t>(shape->memory.max)));
+  for (std::uint32_t e = 0; e < edges.size(); ++e) {
+    const Component::Place from =
+        shape == nullptr
+            ? Component::Place{static_cast<int>(index(edges[e].source)), 0}
+            : shape->places_[shape->drawn_[e].from];
+    by_place[place_number(shape, from)].push_back(e);
+  }
+  return by_place;
+}
+
+// Those at rest first.
+std::size_t OpenPart::place_number(const Component* shape,
+                                   const Component::Place& place) {
+  if (shape == nullptr) return static_cast<std::size_t>(place.location);
+  return static_cast<std::size_t>(
+      place.location == 0 ? place.memory : shape->memory.max + place.location);
 }
 
 std::optional<std::size_t> OpenPart::own(VariableId variable) const {
@@ -89,11 +117,13 @@ bool OpenPart::expand(std::uint32_t state) {
     const bool is_closed =
         moving.gate && moving.gate != gate_ && value_of(*moving.gate) == 0;
     if (is_closed) continue;
-    const Variable& location = range_of(moving.location);
-    const LocationId here{
-        static_cast<std::uint32_t>(value_of(moving.location) - location.min)};
-    for (std::uint32_t e = 0; e < moving.edges.size(); ++e) {
-      if (moving.edges[e].source != here) continue;
+    const Component* shape = members_[number].shape;
+    const bool remembers =
+        shape != nullptr && members_[number].side == PartSide::Inside;
+    const Component::Place here{
+        value_of(moving.location) - range_of(moving.location).min,
+        remembers ? value_of(members_[number].memory) : 0};
+    for (const std::uint32_t e : edges_[number][place_number(shape, here)]) {
       if (!expand(state, {number, e})) return false;
     }
   }
@@ -588,7 +618,7 @@ std::optional<Component> OpenPart::drawn() {
         made.later[static_cast<std::size_t>(in_time(from))] = in_time(to);
       }
       if (arc.label == kQuiet || arc.label == kTime) continue;
-      if (automaton.edges.size() >= limits_.edges) return std::nullopt;
+      if (automaton.edges.size() >= limits_.inner_edges) return std::nullopt;
       Edge edge;
       edge.source = LocationId{static_cast<std::uint32_t>(from.location)};
       edge.target = LocationId{static_cast<std::uint32_t>(to.location)};
@@ -613,7 +643,7 @@ std::optional<Component> OpenPart::drawn() {
       automaton.edges.push_back(std::move(edge));
       const bool is_loop =
           arc.label == LabelledGraph::kSilent && arc.target == p;
-      made.drawn_.push_back({arc.label, arc.target, is_loop});
+      made.drawn_.push_back({arc.label, p, arc.target, is_loop});
     }
   }
   // Else time writes it as well.

@@ -59,6 +59,11 @@ class OpenPart {
   static constexpr std::uint32_t kFirstLabel = 3;
   static constexpr std::uint64_t kMostRead = 64;
 
+  // A large component has thousands of edges, of which few begin in one place.
+  static std::vector<std::vector<std::uint32_t>> edges_by_place(
+      const CutPart::Moving& member);
+  static std::size_t place_number(const Component* shape,
+                                  const Component::Place& place);
   const Variable& range_of(VariableId id) const {
     return part_.variables()[index(id)];
   }
@@ -93,6 +98,8 @@ class OpenPart {
   const VariableId status_;
   const std::optional<VariableId> gate_;
   std::vector<int> place_of_;  // by number: in part_.own(), or -1
+  // By member and its place: its edges from there.
+  std::vector<std::vector<std::vector<std::uint32_t>>> edges_;
   std::vector<State> states_;
   Component::Numbers numbers_;
   std::vector<Label> labels_;  // from kFirstLabel on
