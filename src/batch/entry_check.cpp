@@ -149,6 +149,7 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
       static_cast<int>(options.search), static_cast<int>(options.reduce),
       static_cast<int>(options.assume), options.max_states, options.timeout));
   add(options.tries_repairs ? "repairs" : "");
+  add(options.any_count ? "any-count" : "");
   add(options.scratch_dir);
   add_judgement(options.judgement, add);
   add(trace_dir(entry, options));

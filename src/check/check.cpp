@@ -392,6 +392,28 @@ void keep_holding(const CheckResult& before, CheckResult& result) {
   }
 }
 
+// For which numbers of rounds the verdicts of each file of rules stand.
+void find_counts(const TreeInput& tree,
+                 const std::vector<InputFile>& properties,
+                 const CheckOptions& options, CheckResult& result) {
+  const SourceText tree_source(tree.name, tree.text);
+  for (std::size_t f = 0; f < result.files.size(); ++f) {
+    CheckedFile& file = result.files[f];
+    if (!file.properties) continue;
+    const SourceText source(properties[f].name, properties[f].text);
+    const CountedRules rules{*result.tree,
+                             tree_source,
+                             *file.properties,
+                             source,
+                             file.bound,
+                             file.verdicts,
+                             ticks_for(options, file.properties.get()),
+                             options.extra,
+                             options.most_whole};
+    file.counts = count_claims(rules, options.choices, options.limits);
+  }
+}
+
 // What is broken at one moment is told up to that moment. That the run goes on
 // so that it satisfies the assumptions has been found, and is of no interest.
 void leave_out_rest(CheckResult& result) {
@@ -494,6 +516,9 @@ CheckResult check(const TreeInput& tree,
     doubtful = groups_in_doubt(result);
   }
   if (doubtful) withdraw_doubtful(result);
+  if (options.any_count && !options.start) {
+    find_counts(tree, properties, options, result);
+  }
   leave_out_rest(result);
   judge(options.judgement, properties, result);
   return result;

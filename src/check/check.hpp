@@ -13,6 +13,7 @@
 
 #include "check/bind/bound_property.hpp"
 #include "check/bind/verdict.hpp"
+#include "check/counts.hpp"
 #include "check/findings/judgement.hpp"
 #include "check/questions/defaults.hpp"
 #include "check/search/engine.hpp"
@@ -61,6 +62,8 @@ struct CheckOptions {
   // is not searched for, and where it was asked part by part the whole is not
   // tried before. No answer depends on it. Must outlive the check.
   const CheckResult* earlier = nullptr;
+  // For which numbers of rounds each verdict stands, too (check/counts.hpp).
+  bool any_count = false;
 };
 
 // One property file, or none at all, against the tree.
@@ -71,6 +74,8 @@ struct CheckedFile {
   std::vector<PropertyVerdict> verdicts;
   // By verdict: the rule that may have been meant instead.
   std::vector<std::optional<TickAdvice>> advice;
+  // By verdict, with CheckOptions::any_count: of each node that counts.
+  std::vector<CountClaims> counts;
   std::optional<DefaultReport> defaults;
   // Beside several files of rules, in the first: what a search of so many
   // states finds.

@@ -13,11 +13,12 @@ Result<RulesNetwork> network_for(const BehaviorTree& tree,
                                  const SourceText& tree_source,
                                  const PropertyFile& rules,
                                  const SourceText& source, TickSemantics ticks,
-                                 ExtraAssumption extra,
-                                 std::int64_t most_whole) {
+                                 ExtraAssumption extra, std::int64_t most_whole,
+                                 const std::function<void(Network&)>& change) {
   const Lowering lowered = [&](const SampledValues& samples) {
     Network network = lower(tree, ticks, samples);
     remember_for(tree, rules, network);
+    if (change) change(network);
     return network;
   };
   RulesNetwork made{

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "check/bind/bound_property.hpp"
@@ -23,12 +24,12 @@ struct RulesNetwork {
 
 // Errors are those of names in the rules, and of numbers of the tree that have
 // too many values. `tree_source` is the text of the tree's file, `source` that
-// of the rules; the tree and the rules must outlive the result.
-Result<RulesNetwork> network_for(const BehaviorTree& tree,
-                                 const SourceText& tree_source,
-                                 const PropertyFile& rules,
-                                 const SourceText& source, TickSemantics ticks,
-                                 ExtraAssumption extra = {},
-                                 std::int64_t most_whole = kMostWhole);
+// of the rules; the tree and the rules must outlive the result. `change` is
+// made to the network before anything is bound to it.
+Result<RulesNetwork> network_for(
+    const BehaviorTree& tree, const SourceText& tree_source,
+    const PropertyFile& rules, const SourceText& source, TickSemantics ticks,
+    ExtraAssumption extra = {}, std::int64_t most_whole = kMostWhole,
+    const std::function<void(Network&)>& change = {});
 
 }  // namespace btcheck

@@ -178,6 +178,9 @@ ExitCode check_one(const Options& asked) {
         "warning: --assume changes nothing in the default report: it asks what "
         "can happen\n\n");
   }
+  if (inputs->properties.empty() && options.any_count) {
+    tell("warning: --any-count changes nothing without rules\n\n");
+  }
   std::vector<std::string> names;
   for (const InputFile& file : inputs->properties) names.push_back(file.name);
   print_start(options.reports, inputs->tree.name, names);

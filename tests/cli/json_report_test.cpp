@@ -99,6 +99,7 @@ TEST_CASE("a verdict tells what was asked, answered and expected") {
   CHECK(verdicts[1].at("run").is_null());
   CHECK(verdicts[2].at("asked") == 1);
   CHECK(verdicts[2].at("longest_answer") == 0);
+  CHECK(verdicts[2].at("for_every").empty());
 }
 
 TEST_CASE("what is undecided is neither met nor missed") {

@@ -319,6 +319,21 @@ TEST_CASE("choices that there are not are refused by name") {
         ExtraAssumption::ActionsEnd);
 }
 
+TEST_CASE(
+    "other numbers of rounds are asked of a tree at its beginning, once") {
+  CHECK(options_of({"t.btf", "--any-count"}).any_count);
+  CHECK_FALSE(options_of({"t.btf"}).any_count);
+  for (const Words& words :
+       {Words{"t.btf", "--any-count", "--from", "r.btlog"},
+        Words{"t.xml", "--any-count", "--against", "nav2-jazzy"},
+        Words{"--watch", "t.btf", "--any-count"},
+        Words{"batch", "trees", "--any-count"}}) {
+    const Answer answer = answer_to(words);
+    CHECK(answer.code == ExitCode::BadInput);
+    CHECK(answer.text.find("--any-count") != std::string::npos);
+  }
+}
+
 TEST_CASE("fmt writes unless it is told to show or to check") {
   const FormattingPlan plain = options_of({"fmt", "a.xml", "b"}).formatting;
   CHECK(plain.writes());

@@ -176,6 +176,7 @@ const std::map<std::string_view, std::string> kValues = {
     {"--loop", "--loop"},
     {"--wake-ups", "--wake-ups"},
     {"--assume", "--assume actions-end"},
+    {"--any-count", "--any-count"},
     {"--search", "--search dfs"},
     {"--reduce", "--reduce live"},
     {"--threads", "--threads 1"},

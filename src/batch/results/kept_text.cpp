@@ -51,11 +51,12 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ToldRun, steps, unit, time, loop)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Finding, about, code, severity, title,
                                    message, place, node, related, run, repair,
                                    answers, identity, told, trace, page)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedCount, node, place, attribute, from)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedProperty, name, title, text, tags,
                                    place, verdict, expectation, is_met,
                                    is_vacuous, note, reason, error, stopped,
-                                   progress, triggers, longest_answer, run,
-                                   told, page)
+                                   progress, triggers, longest_answer,
+                                   for_every, run, told, page)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedAnswer, key, code, question, answer,
                                    verdict, is_fault, run, trace, page)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedNode::Possible, verdict, time)

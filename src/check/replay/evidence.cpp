@@ -104,6 +104,22 @@ FormulaId with_literals(FormulaPool& pool, FormulaId claim,
   return images.at(normal);
 }
 
+// A word of labels of atoms and their negations, as with_literals has them:
+// behind what is known all that is wanted is so, and all that is wanted not to
+// be so is not.
+RunWord best_word(const BoundFormula& formula, FormulaId claim,
+                  std::vector<PropositionSet> labels) {
+  const std::size_t count = formula.propositions.size();
+  RunWord word{formula.pool, {}, std::move(labels), 0};
+  word.formula =
+      with_literals(word.pool, claim, static_cast<std::uint32_t>(count));
+  const PropositionSet every = (PropositionSet{1} << count) - 1;
+  for (PropositionSet& label : word.labels) label |= (~label & every) << count;
+  word.loop = word.labels.size();
+  word.labels.push_back(every | every << count);
+  return word;
+}
+
 // The least number up to `most` of which `is_so`, which stays so.
 template <class IsSo>
 std::optional<std::size_t> first_of(std::size_t most, IsSo&& is_so) {
@@ -252,27 +268,39 @@ bool violates(const Network& network, const Run& run,
   return !holds_on_lasso(formula.pool, formula.formula, labels, run.loop);
 }
 
-// What comes behind the labels that are read is the best there could be: all
-// that is wanted is so, and all that is wanted not to be so is not.
+std::optional<RunWord> word_of(const Network& network, const Run& run,
+                               const BoundFormula& formula) {
+  if (run.loop != kNoLoop) {
+    return RunWord{formula.pool, formula.formula,
+                   labels_of(network, run, formula, run.state_count() - 1),
+                   run.loop};
+  }
+  if (2 * formula.propositions.size() > kMaxPropositions) return std::nullopt;
+  const bool has_steps = std::ranges::any_of(formula.propositions, is_of_steps);
+  RunWord word = best_word(formula, formula.formula,
+                           labels_of(network, run, formula,
+                                     run.state_count() - (has_steps ? 1 : 0)));
+  if (holds_on_lasso(word.pool, word.formula, word.labels, word.loop)) {
+    return std::nullopt;
+  }
+  return word;
+}
+
+// What comes behind the labels that are read is the best there could be.
 std::optional<std::size_t> broken_at(const Network& network, const Run& run,
                                      const BoundFormula& formula,
                                      FormulaId claim) {
   const std::size_t count = formula.propositions.size();
   if (2 * count > kMaxPropositions) return std::nullopt;
-  FormulaPool pool = formula.pool;
-  const FormulaId monotone =
-      with_literals(pool, claim, static_cast<std::uint32_t>(count));
-  const PropositionSet every = (PropositionSet{1} << count) - 1;
-  const PropositionSet best = every | every << count;
-  std::vector<PropositionSet> labels =
-      labels_of(network, run, formula, run.steps.size());
-  for (PropositionSet& label : labels) label |= (~label & every) << count;
+  const RunWord all = best_word(
+      formula, claim, labels_of(network, run, formula, run.steps.size()));
   const bool has_steps = std::ranges::any_of(formula.propositions, is_of_steps);
-  const auto read = first_of(labels.size(), [&](std::size_t known) {
-    std::vector<PropositionSet> word(
-        labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(known));
-    word.push_back(best);
-    return !holds_on_lasso(pool, monotone, word, known);
+  const auto read = first_of(all.loop, [&](std::size_t known) {
+    std::vector<PropositionSet> labels(
+        all.labels.begin(),
+        all.labels.begin() + static_cast<std::ptrdiff_t>(known));
+    labels.push_back(all.labels.back());
+    return !holds_on_lasso(all.pool, all.formula, labels, known);
   });
   if (!read) return std::nullopt;
   return has_steps || *read == 0 ? *read : *read - 1;

@@ -31,6 +31,20 @@ inline constexpr std::size_t kMostTriedAfter = 64;
 bool violates(const Network& network, const Run& run,
               const BoundFormula& formula);
 
+// An infinite word, label by state, on which a formula is false: because it is
+// on the run, or, of a finite one, on every run that goes on from there.
+struct RunWord {
+  FormulaPool pool;
+  FormulaId formula{};
+  std::vector<PropositionSet> labels;
+  std::size_t loop = 0;
+};
+
+// The word of a run that violates the formula. Nothing where a finite one is no
+// informative bad prefix.
+std::optional<RunWord> word_of(const Network& network, const Run& run,
+                               const BoundFormula& formula);
+
 // The first state of the run by which it has broken the claim, a part of the
 // formula, whatever comes then; nothing when there is none. Found are the
 // informative bad prefixes (Kupferman and Vardi, FMSD 2001).

@@ -85,10 +85,13 @@ class Verifier {
     within_limits([&] { verify_branching(all); });
     within_limits([&] { judge_assumptions(); });
     within_limits([&] { judge_comparisons(); });
-    within_limits([&] { judge_vacuity(all); });
     bool has_faults = false;
-    within_limits([&] { has_faults = take_census(all); });
+    if (choices_.tells_more) {
+      within_limits([&] { judge_vacuity(all); });
+      within_limits([&] { has_faults = take_census(all); });
+    }
     note_limits();
+    if (!choices_.tells_more) return {std::move(verdicts_), has_faults};
     for (std::size_t i = 0; i < verdicts_.size(); ++i) {
       const auto& run = verdicts_[i].run;
       if (!run) continue;

@@ -42,6 +42,9 @@ struct SearchChoices {
   std::uint64_t sequential_states = 1'000'000;
   // Whether verdicts have the runs that show them; they take room and time.
   bool keeps_runs = true;
+  // Whether more is told of a verdict than what shows it: what it does not
+  // need, how often it was asked.
+  bool tells_more = true;
   // What is known of parts of this tree and others like it, and is told of
   // more; null: what one search finds serves no other. No answer depends on it.
   std::shared_ptr<ComponentStore> components = {};

@@ -164,6 +164,7 @@ CheckOptions check_options(const Options& options, const Limits& limits) {
                     options.judgement,
                     options.tries_repairs};
   made.choices.components = ComponentStore::of_program();
+  made.any_count = options.any_count;
   return made;
 }
 

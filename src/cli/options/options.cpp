@@ -210,6 +210,7 @@ void settle_judgement(const OptionWords& words, Options& options) {
 void settle_reports(const OptionWords& words, Options& options) {
   options.trace_dir = words.value("--trace-dir");
   options.tries_repairs = !words.has("--no-repairs");
+  options.any_count = words.has("--any-count");
   settle_choice(words, "--stats", options.statistics);
   if (options.command == Command::WhatIf) {
     options.faults.outputs.clear();
@@ -368,6 +369,10 @@ void settle_conform(const OptionWords& words, Options& options) {
 // "robot.btlog@12": the file and the tick.
 void settle_from(const OptionWords& words, Options& options) {
   options.from = words.value("--from");
+  if (words.has("--from") && words.has("--any-count")) {
+    refuse("--from and --any-count do not go together",
+           "in the middle of a run a node has counted already");
+  }
   const std::size_t sign = options.from.rfind('@');
   if (sign == std::string::npos) return;
   const std::string word = options.from.substr(sign + 1);
@@ -626,8 +631,8 @@ void settle_against(const OptionWords& words, Options& options) {
   if (options.command == Command::WhatIf) return;
   settle_choice(words, "--against", options.against);
   if (!options.against || options.command == Command::Diff) return;
-  for (const char* name :
-       {"--format", "--from", "--trace-dir", "--write-baseline"}) {
+  for (const char* name : {"--any-count", "--format", "--from", "--trace-dir",
+                           "--write-baseline"}) {
     if (!words.has(name)) continue;
     refuse(fmt::format("--against and {} do not go together", name),
            "btcheck TREE.xml --profile A --against B tells in text what "
@@ -647,6 +652,7 @@ void settle_watch(const OptionWords& words, Options& options) {
   if (!options.watches) return;
   for (const auto& [name, instead] :
        {std::pair("--against", "each change is told beside what was before"),
+        std::pair("--any-count", "it is for once: it takes many searches"),
         std::pair("--from", "the end of a run that is over is checked once"),
         std::pair("--write-baseline",
                   "write it once, and watch with --baseline"),

@@ -204,6 +204,7 @@ struct Options {
   std::string baseline;       // --baseline; "" for none
   std::string new_baseline;   // --write-baseline; "" for none
   bool tries_repairs = true;  // no --no-repairs
+  bool any_count = false;     // --any-count
   std::string trace_dir;
   std::string scratch_dir;  // --on-disk; "": nothing goes to disk
   ExportFormat format = ExportFormat::Dot;

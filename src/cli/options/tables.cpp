@@ -463,6 +463,11 @@ constexpr OptionRow kOptions[] = {
      .commands = {Check, Batch, Export, Demo},
      .is_repeatable = true,
      .also = "; property files may have `assume` lines"},
+    {.name = "--any-count",
+     .help = "also tell for which numbers of attempts and rounds each verdict "
+             "stands",
+     .commands = {Check},
+     .example = "btcheck TREE --prop RULES --any-count"},
     {.name = "--search",
      .value = "ORDER",
      .choices = "bfs dfs",

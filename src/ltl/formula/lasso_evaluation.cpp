@@ -9,6 +9,7 @@
 #include "ltl/formula/lasso_evaluation.hpp"
 
 #include <cassert>
+#include <utility>
 
 namespace btcheck {
 namespace {
@@ -19,11 +20,11 @@ class Evaluation {
              std::span<const PropositionSet> labels, std::size_t loop)
       : formulas_(formulas), labels_(labels), loop_(loop) {}
 
-  bool at_start(FormulaId formula) {
+  std::vector<std::vector<bool>> up_to(FormulaId formula) {
     for (std::uint32_t i = 0; i <= index(formula); ++i) {
       evaluate(formulas_[FormulaId{i}]);
     }
-    return truths_.back()[0];
+    return std::move(truths_);
   }
 
  private:
@@ -92,10 +93,16 @@ class Evaluation {
 
 }  // namespace
 
+std::vector<std::vector<bool>> truths_on_lasso(
+    const FormulaPool& formulas, FormulaId formula,
+    std::span<const PropositionSet> labels, std::size_t loop) {
+  assert(loop < labels.size());
+  return Evaluation(formulas, labels, loop).up_to(formula);
+}
+
 bool holds_on_lasso(const FormulaPool& formulas, FormulaId formula,
                     std::span<const PropositionSet> labels, std::size_t loop) {
-  assert(loop < labels.size());
-  return Evaluation(formulas, labels, loop).at_start(formula);
+  return truths_on_lasso(formulas, formula, labels, loop).back()[0];
 }
 
 }  // namespace btcheck

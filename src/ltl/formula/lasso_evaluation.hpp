@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "explore/state/transition_system.hpp"
 #include "ltl/formula/formula.hpp"
@@ -16,5 +17,11 @@ namespace btcheck {
 // is bit i. Needs loop < labels.size().
 bool holds_on_lasso(const FormulaPool& formulas, FormulaId formula,
                     std::span<const PropositionSet> labels, std::size_t loop);
+
+// The same of every formula of the pool up to this one, by FormulaId, at each
+// position of labels.
+std::vector<std::vector<bool>> truths_on_lasso(
+    const FormulaPool& formulas, FormulaId formula,
+    std::span<const PropositionSet> labels, std::size_t loop);
 
 }  // namespace btcheck

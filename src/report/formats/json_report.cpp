@@ -138,7 +138,7 @@ void add_progress(OrderedJson& to, const SearchProgress& progress) {
 
 OrderedJson verdict_json(const ReportedProperty& property) {
   OrderedJson json =
-      object(17, "name", property.name, "title", word(property.title),
+      object(18, "name", property.name, "title", word(property.title),
              "property", property.text, "tags", property.tags);
   add_place(json, property.place);
   const bool has_failed = !property.error.empty();
@@ -156,6 +156,14 @@ OrderedJson verdict_json(const ReportedProperty& property) {
       given(property.triggers.has_value(), property.triggers.value_or(0));
   json["longest_answer"] =
       given(property.longest_answer >= 0, property.longest_answer);
+  json["for_every"] = OrderedJson::array();
+  for (const ReportedCount& each : property.for_every) {
+    OrderedJson count = {{"node", each.node},
+                         {"attribute", each.attribute},
+                         {"from", each.from}};
+    add_place(count, each.place);
+    json["for_every"].push_back(std::move(count));
+  }
   json["run"] = run_json(property.run);
   return json;
 }

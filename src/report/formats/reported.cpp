@@ -108,6 +108,12 @@ ReportedProperty reported_property(const CheckResult& result,
   reported.progress = verdict.progress;
   reported.triggers = verdict.triggers;
   reported.longest_answer = verdict.longest_answer;
+  for (const CountClaim& claim : claims_of(file, verdict)) {
+    if (!claim.from) continue;
+    reported.for_every.push_back({stable_path(*result.tree, claim.node),
+                                  place_of(*result.tree, claim.node),
+                                  claim.attribute, *claim.from});
+  }
   if (!verdict.run || !verdict.error.empty()) return reported;
   const RunHeading heading = heading_of(result, file, verdict);
   reported.reason = heading.why;

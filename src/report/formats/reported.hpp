@@ -87,6 +87,14 @@ struct Finding {
   std::string page;   // the file in which a browser shows the run
 };
 
+// The verdict is the same for every number from this one on.
+struct ReportedCount {
+  std::string node;  // the names from the root down to it
+  Place place;
+  std::string attribute;  // "num_attempts"
+  int from = 0;
+};
+
 struct ReportedProperty {
   std::string name;
   std::string title;
@@ -104,6 +112,7 @@ struct ReportedProperty {
   SearchProgress progress;
   std::optional<std::uint64_t> triggers;  // states in which it was asked
   int longest_answer = -1;                // -1: none
+  std::vector<ReportedCount> for_every;   // where it was asked for
   std::optional<ToldRun> run;
   std::string told;  // the rule, the reason and the run as the text tells them
   std::string page;  // the file in which a browser shows the run; "" for none

@@ -45,6 +45,37 @@ const TickAdvice* advice_for(const CheckedFile& file,
   return nullptr;
 }
 
+// "for every num_attempts >= 2 of RetryUntilSuccessful at t.xml:12"; with every
+// detail also where nothing is known, and why.
+std::string counts_text(const CheckResult& result, const CheckedFile& file,
+                        const PropertyVerdict& verdict, Layout layout) {
+  const bool tells_all = layout.detail == Detail::EveryStep;
+  if (file.counts.empty()) return {};
+  const CountClaims claims = claims_of(file, verdict);
+  std::string text;
+  const auto tell = [&](const std::string& line) {
+    text += fmt::format("{:{}}{}\n", "", kIndent,
+                        wrapped(line, kIndent, layout.width));
+  };
+  for (const CountClaim& claim : claims) {
+    const Node& node = result.tree->node(claim.node);
+    const std::string place =
+        fmt::format("{} at {}:{}", typed_name(node),
+                    result.tree->file_of(claim.node), node.span.line);
+    if (claim.from) {
+      tell(fmt::format("for every {} >= {} of {}", claim.attribute, *claim.from,
+                       place));
+    } else if (tells_all) {
+      tell(fmt::format("other {} of {}: not known, {}", claim.attribute, place,
+                       claim.open));
+    }
+  }
+  if (claims.empty() && tells_all) {
+    tell("no node counts up to a number that is written in the tree");
+  }
+  return text;
+}
+
 // Why a property holds for another reason than its author had in mind.
 std::string vacuity_text(const CheckedFile& file,
                          const PropertyVerdict& verdict) {
@@ -217,6 +248,7 @@ std::string verdict_text(const CheckResult& result, const CheckedFile& file,
     text += fmt::format("{:{}}{}\n", "", kIndent,
                         wrapped(advice, kIndent, layout.width));
   }
+  text += counts_text(result, file, verdict, layout);
   const bool is_news = !verdict.met_expectation();
   if (!verdict.run || (!is_news && layout.detail == Detail::Events))
     return text;
@@ -272,6 +304,13 @@ std::string_view verdict_word(Verdict verdict) {
   constexpr std::array<std::string_view, 3> kWords = {"HOLDS", "VIOLATED",
                                                       "UNDECIDED"};
   return kWords[static_cast<std::size_t>(verdict)];
+}
+
+CountClaims claims_of(const CheckedFile& file, const PropertyVerdict& verdict) {
+  for (std::size_t i = 0; i < file.counts.size(); ++i) {
+    if (&file.verdicts[i] == &verdict) return file.counts[i];
+  }
+  return {};
 }
 
 std::string advice_text(const CheckedFile& file,

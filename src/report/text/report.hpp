@@ -31,6 +31,10 @@ std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict);
 std::string advice_text(const CheckedFile& file,
                         const PropertyVerdict& verdict);
 
+// What is known of the verdict for other numbers of rounds, by node; empty
+// where that was not asked.
+CountClaims claims_of(const CheckedFile& file, const PropertyVerdict& verdict);
+
 // What is said of a verdict's run besides its steps, the texts of its tree left
 // out. The verdict must have a run.
 RunHeading heading_of(const CheckResult& result, const CheckedFile& file,
