@@ -246,27 +246,16 @@ class CountedNode {
 
   void look_at_runs(std::vector<std::size_t> asked) {
     if (asked.empty()) return;
-    if (of_.tree.programs) {
-      // The engine may not have such a run.
-      for (const std::size_t i : asked) {
-        claims_[i].open = "runs over real values are not carried over";
-      }
-      return;
-    }
     const auto found = verdicts(kMostLast, asked, Rounds::Shown);
     if (!found) return;
     const auto counter = round_counter(*found->made.network, node_);
     if (!counter) return;
     for (std::size_t k = 0; k < asked.size(); ++k) {
-      const PropertyVerdict& verdict = found->verdicts[k];
-      note_limits(asked[k], verdict);
-      if (!verdict.run || !verdict.error.empty() ||
-          finds_none(asked[k], verdict.verdict)) {
-        continue;
-      }
-      const auto last =
-          least_last_value(*found->made.network, counter->variable,
-                           *verdict.run, found->made.bound.properties[k]);
+      note_limits(asked[k], found->verdicts[k]);
+      if (!is_shown(*found, k, asked[k])) continue;
+      const auto last = least_last_value(
+          *found->made.network, counter->variable, *found->verdicts[k].run,
+          found->made.bound.properties[k]);
       if (last) from_[asked[k]] = *last;
     }
   }
@@ -283,16 +272,36 @@ class CountedNode {
         for (const std::size_t i : asked) from_[i] = last;
         continue;
       }
-      const auto found = verdicts(last, asked, Rounds::Counted);
+      const auto found = verdicts(
+          last, asked, of_.tree.programs ? Rounds::Shown : Rounds::Counted);
       if (!found) continue;
       for (std::size_t k = 0; k < asked.size(); ++k) {
+        const std::size_t i = asked[k];
         const PropertyVerdict& verdict = found->verdicts[k];
-        if (verdict.verdict == of_.verdicts[asked[k]].verdict &&
-            verdict.comparisons.empty()) {
-          from_[asked[k]] = last;
+        const bool is_none = finds_none(i, verdict.verdict);
+        if (verdict.verdict == of_.verdicts[i].verdict &&
+            verdict.comparisons.empty() &&
+            (is_none || !of_.tree.programs || is_shown(*found, k, i))) {
+          from_[i] = last;
         }
       }
     }
+  }
+
+  // A run shows the verdict, of number k there, and the engine has it: no
+  // script on it would have to be executed on real values.
+  bool is_shown(const NumberVerdicts& found, std::size_t k,
+                std::size_t i) const {
+    const PropertyVerdict& verdict = found.verdicts[k];
+    if (!verdict.run || !verdict.error.empty() ||
+        verdict.verdict != of_.verdicts[i].verdict ||
+        !verdict.comparisons.empty()) {
+      return false;
+    }
+    return std::ranges::all_of(verdict.run->steps, [&](const RunStep& step) {
+      return step.step.edge == kTimeStep ||
+             found.made.network->edge(step.step.edge).scripts.empty();
+    });
   }
 
   // The tree and the rules with another number, and what `change` makes of

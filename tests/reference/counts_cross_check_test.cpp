@@ -95,6 +95,44 @@ bool counts(const Node& node) {
           node.type == NodeType::RetryUntilSuccessful);
 }
 
+// "the child answers so three times": <> (c.ticked and <> (c.failure and …)).
+std::string answers_often(const std::string& child, std::string_view answer,
+                          int times) {
+  std::string text = "true";
+  for (int i = 0; i < times; ++i) {
+    text = fmt::format("<> ({0}.ticked and <> ({0}.{1} and {2}))", child,
+                       answer, text);
+  }
+  return text;
+}
+
+// Rules whose verdict hangs on how many rounds a node goes.
+std::string counting_rules(const BehaviorTree& tree, TickSemantics ticks,
+                           SplitMix64& random) {
+  std::string text;
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    const Node& node = tree.nodes[n];
+    if (!counts(node)) continue;
+    const std::string child = unique_name(
+        tree, node.children[static_cast<std::size_t>(
+                  random.below(static_cast<int>(node.children.size())))]);
+    const std::string answer = random.percent(50) ? "failure" : "success";
+    const int times = 1 + random.below(4);
+    text += fmt::format("property n{} : ltl {}{}\n", n,
+                        random.percent(70) ? "not " : "",
+                        answers_often(child, answer, times));
+    text += fmt::format("property e{} : ltl [] ({}.ticked => {})\n", n,
+                        unique_name(tree, NodeId{n}),
+                        answers_often(child, answer, 1 + times / 2));
+    if (ticks == TickSemantics::None) continue;
+    text += fmt::format(
+        "property t{} : {}.ticked leadsto root.ended within {}"
+        " ticks\n",
+        n, child, random.below(7));
+  }
+  return text;
+}
+
 std::string random_rules(const BehaviorTree& tree, TickSemantics ticks,
                          SplitMix64& random) {
   const Network network = lower(tree, ticks);
@@ -111,7 +149,7 @@ std::string random_rules(const BehaviorTree& tree, TickSemantics ticks,
     if (i == 0 && !rule.assumption.by_option) text = rule.assumption.text;
     text += fmt::format("property p{} : {}\n", i, rule.body);
   }
-  return text +
+  return text + counting_rules(tree, ticks, random) +
          "property fails : never root.failure\n"
          "property ends : eventually root.ended\n"
          "property can : possible root.success\n"
