@@ -95,6 +95,18 @@ TEST_CASE("attempts come to an end, however many there are") {
         Told{"HOLDS from 1", "VIOLATED from 1", "HOLDS from 1"});
 }
 
+TEST_CASE("a run may come to rest in any round") {
+  // With two attempts a does not fail thrice; with more it does, and then runs
+  // for ever: the counter is not set back any more.
+  const std::string thrice =
+      "ltl not <> (a.failure and <> (a.ticked and <> (a.failure and"
+      " <> (a.ticked and <> (a.failure and [] not root.ended)))))";
+  CHECK(told("t.btf", retried("(Action :ID a)", 2), {thrice}) ==
+        Told{"HOLDS: some other number may give another verdict"});
+  CHECK(told("t.btf", retried("(Action :ID a)", 5), {thrice}) ==
+        Told{"VIOLATED from 4"});
+}
+
 TEST_CASE("what fails for every number is shown for every number") {
   CHECK(told("t.btf", retried("(Action :ID a :SF)", 5),
              {"never root.failure", "possible root.failure",
@@ -120,8 +132,9 @@ TEST_CASE("an exact number of answers is told of no other one") {
 
 TEST_CASE("time bounds what a number of rounds can do") {
   // Each attempt takes a tick.
-  const std::string tree = "((defaction a :duration 1 :returns (failure running))" +
-                           retried("(Action :ID a)", 2) + ")";
+  const std::string tree =
+      "((defaction a :duration 1 :returns (failure running))" +
+      retried("(Action :ID a)", 2) + ")";
   const Told answers =
       told("t.btf", tree,
            {"a.ticked leadsto root.ended within 9 ticks", "never a.success"});
