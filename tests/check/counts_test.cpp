@@ -142,6 +142,20 @@ TEST_CASE("time bounds what a number of rounds can do") {
   CHECK(answers[1] == "HOLDS from 1");
 }
 
+TEST_CASE("an answer that comes too late comes later with more rounds") {
+  CHECK(told("t.btf",
+             "((defaction a :duration 1 :returns (failure running))" +
+                 retried("(Action :ID a)", 5) + ")",
+             {"a.ticked leadsto root.failure within 3 ticks"}) ==
+        Told{"VIOLATED from 4"});
+  // The run has to go through all rounds; of a lower bound nothing is told.
+  CHECK(told("t.btf", retried("(Action :ID a :SF)", 5),
+             {"root.failure leadsto a.success within 2 ticks",
+              "root.failure leadsto a.success within [1,2]"}) ==
+        Told{"VIOLATED from 1",
+             "VIOLATED: some other number may give another verdict"});
+}
+
 TEST_CASE("what is assumed is assumed of every number") {
   CHECK(told("t.btf", retried("(Action :ID a)"),
              {"assume every action eventually ends", "eventually root.ended",

@@ -159,6 +159,13 @@ bool stays_false(const RunWord& word, const std::vector<Round>& rounds) {
   return false;
 }
 
+// An answer that is missing, or comes too late, does so on longer runs as well.
+bool only_late_is_wrong(const BoundProperty& rule) {
+  const TimedPattern& pattern = rule.timed.pattern;
+  return pattern.demand == Demand::Answer && pattern.from == 0 &&
+         pattern.opening == 0 && pattern.closing == 0 && !rule.is_assumed;
+}
+
 }  // namespace
 
 std::optional<int> least_last_value(const Network& network, VariableId counter,
@@ -166,9 +173,11 @@ std::optional<int> least_last_value(const Network& network, VariableId counter,
   const int last = network.variable(counter).max;
   const CountedRun counted(network, counter, run);
   if (counted.greatest() < last) return counted.greatest() + 1;
-  if (rule.form == PropertyForm::Timed) return std::nullopt;
   const auto rounds = counted.rounds();
   if (!rounds) return std::nullopt;
+  if (rule.form == PropertyForm::Timed) {
+    return only_late_is_wrong(rule) ? std::optional(last) : std::nullopt;
+  }
   // What a last state shows, it shows behind further rounds.
   if (asks_of_states(rule.form) && !rule.is_assumed) return last;
   const auto word = word_of(network, counted.run(), rule.formula);

@@ -45,7 +45,7 @@ const TickAdvice* advice_for(const CheckedFile& file,
   return nullptr;
 }
 
-// "for every num_attempts >= 2 of RetryUntilSuccessful at t.xml:12"; with every
+// "for every num_attempts >= 2 of RetryUntilSuccessful, line 12"; with every
 // detail also where nothing is known, and why.
 std::string counts_text(const CheckResult& result, const CheckedFile& file,
                         const PropertyVerdict& verdict, Layout layout) {
@@ -58,15 +58,14 @@ std::string counts_text(const CheckResult& result, const CheckedFile& file,
                         wrapped(line, kIndent, layout.width));
   };
   for (const CountClaim& claim : claims) {
-    const Node& node = result.tree->node(claim.node);
-    const std::string place =
-        fmt::format("{} at {}:{}", typed_name(node),
-                    result.tree->file_of(claim.node), node.span.line);
+    const std::string node =
+        fmt::format("{}, {}", typed_name(result.tree->node(claim.node)),
+                    line_of(*result.tree, claim.node));
     if (claim.from) {
       tell(fmt::format("for every {} >= {} of {}", claim.attribute, *claim.from,
-                       place));
+                       node));
     } else if (tells_all) {
-      tell(fmt::format("other {} of {}: not known, {}", claim.attribute, place,
+      tell(fmt::format("other {} of {}: not known, {}", claim.attribute, node,
                        claim.open));
     }
   }
