@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // `--any-count` against trying: random trees of .btf, BehaviorTree.CPP and Nav2
-// that count, under every tick semantics, with random rules. Each "for every
-// number from k on" is asked of the tree with k, k + 1, … written into its
-// text, to three beyond the greater of k and its own number.
+// that count, and some of py_trees, under every tick semantics, with random
+// rules. Each "for every number from k on" is asked of the tree with k, k + 1,
+// … written into its text, to three beyond the greater of k and its own number.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -42,7 +42,20 @@ constexpr int kRules = 5;
 // The words of .btf and XML that a number follows.
 constexpr std::array kAttributes = {":repeat ",        ":num_attempts ",
                                     ":num_retries ",   "num_cycles=\"",
-                                    "num_attempts=\"", "number_of_retries=\""};
+                                    "num_attempts=\"", "number_of_retries=\"",
+                                    "num_success=\"",  "num_failures=\""};
+
+// What stands in the root of a tree of py_trees.
+constexpr std::array kPyTrees = {
+    R"(<Retry name="r" num_failures="2"><Action name="a" ID="A"/></Retry>)",
+    R"(<Repeat name="r" num_success="3"><Sequence name="s" memory="true">
+       <Condition name="c" ID="C"/><Action name="a" ID="A"/></Sequence>
+       </Repeat>)",
+    R"(<Selector name="s" memory="false"><Condition name="c" ID="C"/>
+       <Retry name="r" num_failures="3"><Action name="a" ID="A"/></Retry>
+       </Selector>)",
+    R"(<Repeat name="q" num_success="2"><Retry name="r" num_failures="2">
+       <Action name="a" ID="A"/></Retry></Repeat>)"};
 
 struct Census {
   int trees = 0;    // that count
@@ -53,6 +66,7 @@ struct Census {
   int open = 0;
   int checked = 0;  // numbers that were tried
   std::map<std::string, int> reasons;
+  std::map<std::string_view, int> profiles;
 };
 
 // Where the number of a node is written, from where the node stands.
@@ -136,6 +150,15 @@ std::string counting_rules(const BehaviorTree& tree, TickSemantics ticks,
   return text;
 }
 
+// Random atoms may name what only trees of .btf have.
+bool can_be_bound(const BehaviorTree& tree, const Network& network,
+                  const std::string& text) {
+  const auto file = read_properties("r.ltl", text);
+  return file.value &&
+         bind_properties(tree, network, *file.value, {"r.ltl", text}, {})
+             .value.has_value();
+}
+
 std::string random_rules(const BehaviorTree& tree, TickSemantics ticks,
                          SplitMix64& random) {
   const Network network = lower(tree, ticks);
@@ -149,8 +172,11 @@ std::string random_rules(const BehaviorTree& tree, TickSemantics ticks,
   for (int i = 0; i < kRules; ++i) {
     RandomProperty rule = random_property(tree, network, random, weights);
     if (assumes) assume_something(rule, tree, network, stream);
-    if (i == 0 && !rule.assumption.by_option) text = rule.assumption.text;
-    text += fmt::format("property p{} : {}\n", i, rule.body);
+    const bool has_text = !rule.assumption.by_option;
+    const std::string assumed = has_text ? rule.assumption.text : "";
+    if (i == 0 && can_be_bound(tree, network, assumed)) text = assumed;
+    const std::string line = fmt::format("property p{} : {}\n", i, rule.body);
+    if (can_be_bound(tree, network, line)) text += line;
   }
   return text + counting_rules(tree, ticks, random) +
          "property fails : never root.failure\n"
@@ -168,6 +194,7 @@ std::string flaw_of(const Case& one, Census& census) {
   const CheckedFile& file = result.files.front();
   REQUIRE(file.counts.size() == file.verdicts.size());
   ++census.trees;
+  ++census.profiles[profile_name(result.tree->profile)];
   bool tells = false;
   std::map<std::pair<NodeId, int>, std::vector<Verdict>> known;
   for (std::size_t i = 0; i < file.verdicts.size(); ++i) {
@@ -224,17 +251,27 @@ Case random_case(std::uint64_t seed) {
     made.how.limits.max_states = kMostStates;
     made.how.choices.tells_more = false;
     made.how.ticks = kAllTicks[random.below(4)];
-    if (random.percent(50)) {
+    if (random.percent(25)) {
       RandomTreeWeights weights;
       if (random.percent(30)) weights = timed_weather();
       if (random.percent(30)) weights.looping_root = 90;
       made.name = "t.btf";
       made.text = random_tree(random.next(), weights);
+    } else if (random.percent(4)) {
+      made.name = "t.xml";
+      made.text = fmt::format(
+          "<root BTCPP_format=\"4\" py_trees=\"2.2.3\"><BehaviorTree "
+          "ID=\"Main\">"
+          "\n{}\n</BehaviorTree></root>",
+          kPyTrees[static_cast<std::size_t>(random.below(kPyTrees.size()))]);
+      made.reading.loops = random.percent(50);
     } else {
       made.name = "t.xml";
       made.reading.profile = kProfiles[random.below(5)];
       made.reading.loops = random.percent(50);
       made.text = random_xml_tree(random.next(), *made.reading.profile);
+      // In rules `T` is an operator.
+      made.text.replace(made.text.find("\"T\""), 3, "\"Main\"");
     }
     const auto tree = read_tree(made.name, FileText(made.text), made.reading);
     if (!tree.value || !std::ranges::any_of(tree.value->nodes, counts)) {
@@ -378,6 +415,9 @@ TEST_CASE("what is told for every number is so for the next ones") {
   for (const auto& [reason, count] : census.reasons) {
     reasons += fmt::format("\n{:>6}  {}", count, reason);
   }
+  for (const auto& [profile, count] : census.profiles) {
+    reasons += fmt::format("\n{:>6}  trees of {}", count, profile);
+  }
   MESSAGE(census.trees << " trees, " << census.telling << " of them told of; "
                        << census.claims << " claims (" << census.found
                        << " with runs, " << census.beyond_one
@@ -387,6 +427,7 @@ TEST_CASE("what is told for every number is so for the next ones") {
   CHECK_COVERED(census.claims > census.open);
   CHECK_COVERED(census.found > 200);
   CHECK_COVERED(census.beyond_one > 20);
+  CHECK_COVERED(census.profiles.size() == 2 + std::size(kProfiles));
 }
 
 // The map on which the argument rests, state by state.
