@@ -12,6 +12,7 @@
 
 #include "batch/results/seal.hpp"
 #include "check/repairs/repairs.hpp"
+#include "cli/inputs/build.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/options/interface.hpp"

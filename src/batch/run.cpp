@@ -19,8 +19,8 @@
 #include <utility>
 
 #include "batch/entry_result.hpp"
-#include "batch/results/seal.hpp"
 #include "batch/worker.hpp"
+#include "cli/inputs/build.hpp"
 #include "cli/inputs/watch.hpp"
 #include "report/text/report.hpp"
 #include "trace/run/shown_text.hpp"

@@ -493,11 +493,31 @@ Result<LoweredInput> lowered_input(const TreeInput& input,
   return {std::move(lowered), std::move(found)};
 }
 
+namespace {
+
+// However the check ends, what it has found out of parts is there for others.
+class Written {
+ public:
+  explicit Written(const SearchChoices& choices)
+      : components_(choices.components) {}
+  ~Written() {
+    if (components_ != nullptr) components_->write();
+  }
+  Written(const Written&) = delete;
+  Written& operator=(const Written&) = delete;
+
+ private:
+  std::shared_ptr<ComponentStore> components_;
+};
+
+}  // namespace
+
 // What was found has to be what the engine does: entries whose real values do
 // not allow it are told apart more closely, and it is searched again.
 CheckResult check(const TreeInput& tree,
                   const std::vector<InputFile>& properties,
                   const CheckOptions& options) {
+  const Written at_the_end(options.choices);
   TreeInput closer = tree;
   CheckResult result = check_once(closer, properties, options);
   auto doubtful = groups_in_doubt(result);

@@ -27,6 +27,7 @@
 #include "check/space/space.hpp"
 #include "cli/console/console.hpp"
 #include "cli/from.hpp"
+#include "cli/inputs/component_cache.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
@@ -279,7 +280,9 @@ int run_program(int argc, const char* const* argv) {
     allow(options);
     const BudgetScope budget(&limits);
     const Guard guard(limits);
+    if (!open_cache(options)) return static_cast<int>(ExitCode::BadInput);
     const ExitCode code = run_within(options);
+    close_cache(options);
     flush_output();
     return static_cast<int>(code);
   } catch (const Refusal& refused) {

@@ -12,11 +12,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "explore/components/composition.hpp"
 #include "reference/effort.hpp"
+#include "reference/kept_bytes.hpp"
 #include "reference/random_tree.hpp"
 #include "reference/reduction_cases.hpp"
 
@@ -165,6 +167,11 @@ class Walk {
   Standing standing_;
 };
 
+std::shared_ptr<KeptBytes> kept_bytes() {
+  static const auto kept = std::make_shared<KeptBytes>();
+  return kept;
+}
+
 // Of the network with one node as it is, or with all roots.
 std::string flaw_of(const ReductionCase& each, ComponentTable& components,
                     std::optional<AutomatonId> kept, Census& census) {
@@ -223,10 +230,13 @@ std::string flaw_of(const ReductionCase& each, ComponentTable& components,
   return {};
 }
 
-// Of all networks that were looked at before, as far as there is room.
-ComponentStore& known_parts() {
+// Of all networks that were looked at before, as far as there is room; of every
+// other one as it comes back from where it was kept as bytes.
+ComponentStore& known_parts(std::uint64_t seed) {
   static ComponentStore store(std::size_t{4} << 20);
-  return store;
+  static ComponentStore forgetful(0);
+  forgetful.keep_in(kept_bytes());
+  return seed % 2 == 0 ? store : forgetful;
 }
 
 std::string flaw_of(const ReductionCase& each, Census& census) {
@@ -236,7 +246,7 @@ std::string flaw_of(const ReductionCase& each, Census& census) {
   if (each.seed % 3 == 0) limits.edges = 12;
   ComponentTable components(network,
                             std::vector<bool>(network.variables.size()), limits,
-                            &known_parts());
+                            &known_parts(each.seed));
   std::string wrong = flaw_of(each, components, std::nullopt, census);
   for (std::uint32_t a = 0; a < network.automata.size() && wrong.empty(); ++a) {
     if (network.automata[a].kind != AutomatonKind::Node) continue;
@@ -265,11 +275,14 @@ TEST_CASE("networks of components do what the whole does") {
                           << " automata left out, " << census.smaller
                           << " states; " << census.clocks
                           << " components change with time; " << census.steps
-                          << " steps walked in both");
+                          << " steps walked in both; " << kept_bytes()->found
+                          << " components from bytes");
   CHECK_COVERED(census.outsides > 100);
   CHECK_COVERED(census.clocks > 10);
   CHECK_COVERED(census.left_out > 1000);
   CHECK_COVERED(census.smaller > 1000);
+  CHECK_COVERED(kept_bytes()->found > 1000);
+  CHECK(kept_bytes()->refused == 0);
 }
 
 }  // namespace btcheck::reference::components_cross_check_test

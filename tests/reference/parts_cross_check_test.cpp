@@ -25,6 +25,7 @@
 #include "model/tree/node_types.hpp"
 #include "model/tree_file.hpp"
 #include "reference/effort.hpp"
+#include "reference/kept_bytes.hpp"
 #include "reference/random_tree.hpp"
 #include "reference/random_xml_tree.hpp"
 #include "reference/telling_names.hpp"
@@ -79,10 +80,18 @@ bool shows(const Network& network, const KeptRun& run, NodeId node,
          node_entering(network, steps.back().edge, role) == node;
 }
 
-// Of all trees that were checked before, as far as there is room.
-ComponentStore& known_parts() {
+std::shared_ptr<KeptBytes> kept_bytes() {
+  static const auto kept = std::make_shared<KeptBytes>();
+  return kept;
+}
+
+// Of all trees that were checked before, as far as there is room; of every
+// other one as it comes back from where it was kept as bytes.
+ComponentStore& known_parts(std::size_t tree) {
   static ComponentStore store(std::size_t{4} << 20);
-  return store;
+  static ComponentStore forgetful(0);
+  forgetful.keep_in(kept_bytes());
+  return tree % 2 == 0 ? store : forgetful;
 }
 
 std::string difference(const BehaviorTree& tree, const Network& network,
@@ -127,6 +136,35 @@ std::string difference(const BehaviorTree& tree, const Network& network,
   return one == other ? "" : one + "\n-- in parts\n" + other;
 }
 
+// What is told of how far a report came does not hang on what was kept before,
+// of this tree and of others.
+std::string difference_of_effort(const BehaviorTree& tree,
+                                 const CompiledNetwork& system,
+                                 std::size_t together) {
+  ComponentStore nothing;
+  ComponentStore reading;
+  reading.keep_in(kept_bytes());
+  const auto asked = [&](ComponentStore& known) {
+    return check_defaults_in_parts(tree, system, {}, &known, together, nullptr);
+  };
+  const DefaultReport one = asked(nothing);
+  const DefaultReport first = asked(reading);
+  reading.forget();
+  const DefaultReport again = asked(reading);
+  for (const DefaultReport* other : {&first, &again}) {
+    const auto& [states, expanded, transitions, depth, bytes] = other->progress;
+    if (one.searches == other->searches && one.progress.states == states &&
+        one.progress.expanded == expanded && one.progress.depth == depth &&
+        one.progress.transitions == transitions &&
+        one.progress.bytes == bytes) {
+      continue;
+    }
+    return fmt::format("{} searches of {} states, and {} of {}", one.searches,
+                       one.progress.states, other->searches, states);
+  }
+  return {};
+}
+
 // One node counts to another number, where one counts.
 bool edit_count(BehaviorTree& tree, std::uint64_t number) {
   std::vector<int*> counts;
@@ -168,8 +206,8 @@ std::string flaw_of(const BehaviorTree& tree, BehaviorTree again,
   const std::size_t together = 1 + census.trees % 4;
   const auto in_parts = [&](const BehaviorTree& of, const CompiledNetwork& its,
                             const EarlierReport* earlier) {
-    return check_defaults_in_parts(of, its, {}, &known_parts(), together,
-                                   earlier);
+    return check_defaults_in_parts(of, its, {}, &known_parts(census.trees),
+                                   together, earlier);
   };
   few.max_states = census.trees % 100;
   const DefaultReport begun =
@@ -193,7 +231,8 @@ std::string flaw_of(const BehaviorTree& tree, BehaviorTree again,
     if (!flaw.empty()) return words + flaw;
   }
   census.last = std::move(edited);
-  return {};
+  if (census.trees % 3 != 0) return {};
+  return difference_of_effort(tree, system, together);
 }
 
 constexpr std::array<TickSemantics, 4> kTicks = {
@@ -207,9 +246,12 @@ void tell(const Census& census) {
   MESSAGE(census.trees << " trees, " << census.parts << " decided in parts; "
                        << census.findings << " findings, " << census.stuck
                        << " questions of trees answered no, " << census.never
-                       << " of nodes");
+                       << " of nodes; " << kept_bytes()->found
+                       << " contents from bytes");
   CHECK_COVERED(census.parts > 2 * census.trees);
   CHECK_COVERED(census.never > census.trees);
+  CHECK_COVERED(kept_bytes()->found > census.trees);
+  CHECK(kept_bytes()->refused == 0);
 }
 
 }  // namespace

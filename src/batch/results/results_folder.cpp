@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "batch/results/kept_text.hpp"
+#include "cli/inputs/build.hpp"
 #include "cli/inputs/files.hpp"
 #include "trace/run/shown_text.hpp"
 

@@ -6,13 +6,12 @@
 
 #include <boost/uuid/detail/sha1.hpp>
 #include <filesystem>
-#include <fstream>
 #include <initializer_list>
-#include <vector>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "cli/inputs/build.hpp"
 #include "cli/options/interface.hpp"
 
 namespace btcheck {
@@ -55,26 +54,7 @@ std::string sealed(std::string_view secret, std::string_view text) {
   return seal;
 }
 
-std::string hash_of_program() {
-  std::ifstream program("/proc/self/exe", std::ios::binary);
-  XXH3_state_t state;
-  XXH3_128bits_reset(&state);
-  std::vector<char> block(1 << 16);
-  while (program.read(block.data(), static_cast<std::streamsize>(block.size())),
-         program.gcount() > 0) {
-    XXH3_128bits_update(&state, block.data(),
-                        static_cast<std::size_t>(program.gcount()));
-  }
-  const XXH128_hash_t hash = XXH3_128bits_digest(&state);
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
-}
-
 }  // namespace
-
-const std::string& build_identity() {
-  static const std::string identity = hash_of_program();
-  return identity;
-}
 
 std::string content_hash(std::string_view text) {
   const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());

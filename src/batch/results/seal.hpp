@@ -16,10 +16,6 @@ namespace btcheck {
 // 32 hexadecimal digits, the same on every machine (XXH3, 128 bits).
 std::string content_hash(std::string_view text);
 
-// Which btcheck this is: a content hash of the running program. The same for
-// all of them where the system does not say where the program lies.
-const std::string& build_identity();
-
 // "robot-ci"
 std::string host_name();
 

@@ -209,10 +209,8 @@ class PartSearch {
         questions_(tree, searched_.system().network(), sightings, group.asked),
         limits_(limits),
         search_(searched_.system(), limits_) {
-    const bool is_small =
-        2 * parts_->left_out() >= whole.network().automata.size();
     limits_.max_states =
-        std::min(limits.max_states, is_small ? most_states : kMostStates);
+        std::min(limits.max_states, most_of(*parts_, most_states));
     result_ = search_.run(questions_);
     if (result_.is_complete) questions_.graph.close(search_.store().size());
     reporter_.emplace(searched_, search_, result_.is_complete, whole.network(),
@@ -220,6 +218,14 @@ class PartSearch {
   }
   PartSearch(const PartSearch&) = delete;
   PartSearch& operator=(const PartSearch&) = delete;
+
+  // How many states one may have that is to have no more than so many, where
+  // it is much smaller than the whole.
+  static std::uint64_t most_of(const Composition& parts,
+                               std::uint64_t most_states) {
+    const std::size_t automata = parts.components().network().automata.size();
+    return 2 * parts.left_out() >= automata ? most_states : kMostStates;
+  }
 
   const ReachabilityResult& result() const { return result_; }
   bool is_complete() const {
@@ -374,29 +380,44 @@ class SearchInParts {
     const AskedContent content(parts->network());
     open_.leave_out_known(content, group.asked);
     if (!group.asks_anything()) return true;
-    SearchProgress& all = report_.progress;
     Limits few = limits_;
-    few.max_states -= std::min(few.max_states, all.states);
+    few.max_states -= std::min(few.max_states, report_.progress.states);
     few.max_bytes -= std::min(few.max_bytes, held_);
     few.monitor = &monitor_;
+    const auto before = open_.in_vain(content, group.asked);
+    if (before && before->bytes < few.max_bytes &&
+        before->states < std::min(few.max_states,
+                                  PartSearch::most_of(*parts, most_states))) {
+      count(*before);
+      open_.take_over(content, group.asked);
+      return true;
+    }
     auto made = std::make_unique<PartSearch>(tree_, system_, std::move(parts),
                                              group, inquiry_.sightings(), few,
                                              most_states, report_);
     const auto& [stopped, is_complete, progress] = made->result();
+    count(progress);
+    const bool knows_all = made->is_complete();
+    if (!knows_all) report_.stopped = stopped;
+    if (is_complete) open_.keep(content, made->seen().questions);
+    if (is_complete && !made->is_told()) {
+      open_.share_in_vain(content, group.asked, progress);
+    }
+    if (made->is_told()) {
+      held_ += progress.bytes;
+      searches_.push_back(std::move(made));
+    }
+    return knows_all;
+  }
+
+  void count(const SearchProgress& progress) {
+    SearchProgress& all = report_.progress;
     all.states += progress.states;
     all.expanded += progress.expanded;
     all.transitions += progress.transitions;
     all.depth = std::max(all.depth, progress.depth);
     all.bytes = std::max(all.bytes, held_ + progress.bytes);
     ++report_.searches;
-    const bool knows_all = made->is_complete();
-    if (!knows_all) report_.stopped = stopped;
-    if (is_complete) open_.keep(content, made->seen().questions);
-    if (made->is_told()) {
-      held_ += progress.bytes;
-      searches_.push_back(std::move(made));
-    }
-    return knows_all;
   }
 
   std::vector<bool> standing(const Group& group) const {

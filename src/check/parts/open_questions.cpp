@@ -2,13 +2,44 @@
 #include "check/parts/open_questions.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <string>
 
 namespace btcheck {
 namespace {
 
 constexpr std::int32_t kOfNode = 0;
 constexpr std::int32_t kOfSighting = 1;
+constexpr std::int32_t kOfSearch = 2;
+
+// Eight bytes for each number, the lowest first.
+using Figures = std::array<std::uint64_t, 5>;
+constexpr std::size_t kBytesOfFigure = 8;
+
+std::string bytes_of(const SearchProgress& progress) {
+  const auto& [states, expanded, transitions, depth, bytes] = progress;
+  std::string text;
+  for (const std::uint64_t each :
+       Figures{states, expanded, transitions, depth, bytes}) {
+    for (std::size_t i = 0; i < kBytesOfFigure; ++i) {
+      text += static_cast<char>(each >> 8 * i & 0xff);
+    }
+  }
+  return text;
+}
+
+std::optional<SearchProgress> progress_in(const std::string& text) {
+  Figures figures{};
+  if (text.size() != kBytesOfFigure * figures.size()) return std::nullopt;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    figures[i / kBytesOfFigure] |= std::uint64_t{byte}
+                                   << 8 * (i % kBytesOfFigure);
+  }
+  const auto [states, expanded, transitions, depth, bytes] = figures;
+  return SearchProgress{states, expanded, transitions, depth, bytes};
+}
 
 }  // namespace
 
@@ -18,14 +49,39 @@ ContentHash AskedContent::of(NodeId node, std::size_t question) const {
 }
 
 ContentHash AskedContent::of(const Sighting& sighting) const {
-  std::vector<std::int32_t> asked = {kOfSighting, number(sighting.node),
-                                     static_cast<std::int32_t>(sighting.role)};
-  asked.push_back(sighting.retried ? number(*sighting.retried) : -1);
-  for (const auto& [node, status] : sighting.with) {
-    asked.push_back(content_.number(network_.node_status[index(node)]));
-    asked.push_back(static_cast<std::int32_t>(status));
-  }
+  std::vector<std::int32_t> asked = {kOfSighting};
+  put(sighting, asked);
   return content_.of(asked);
+}
+
+ContentHash AskedContent::of(const QuestionsAsked& asked,
+                             const std::vector<Sighting>& sightings) const {
+  std::vector<std::int32_t> all = {kOfSearch};
+  for (std::uint32_t n = 0; n < asked.nodes.size(); ++n) {
+    if (asked.nodes[n].none()) continue;
+    all.push_back(number(NodeId{n}));
+    all.push_back(static_cast<std::int32_t>(asked.nodes[n].to_ulong()));
+  }
+  for (std::size_t i = 0; i < asked.sightings.size(); ++i) {
+    if (!asked.sightings[i]) continue;
+    std::vector<std::int32_t> one;
+    put(sightings[i], one);
+    all.push_back(-2);  // no node has this number
+    all.push_back(static_cast<std::int32_t>(one.size()));
+    all.insert(all.end(), one.begin(), one.end());
+  }
+  return content_.of(all);
+}
+
+void AskedContent::put(const Sighting& sighting,
+                       std::vector<std::int32_t>& to) const {
+  to.push_back(number(sighting.node));
+  to.push_back(static_cast<std::int32_t>(sighting.role));
+  to.push_back(sighting.retried ? number(*sighting.retried) : -1);
+  for (const auto& [node, status] : sighting.with) {
+    to.push_back(content_.number(network_.node_status[index(node)]));
+    to.push_back(static_cast<std::int32_t>(status));
+  }
 }
 
 OpenQuestions::OpenQuestions(const Network& network,
@@ -79,22 +135,49 @@ void OpenQuestions::leave_out_known(const AskedContent& network,
 
 void OpenQuestions::keep(const AskedContent& network,
                          const DefaultQuestions& searched) {
-  const QuestionsAsked& asked = searched.asked;
+  QuestionsAsked in_vain = searched.asked;
+  for (std::uint32_t n = 0; n < in_vain.nodes.size(); ++n) {
+    for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+      if (searched.nodes[n][q]) in_vain.nodes[n].reset(q);
+    }
+  }
+  for (std::size_t i = 0; i < in_vain.sightings.size(); ++i) {
+    if (searched.sightings.found()[i]) in_vain.sightings[i] = false;
+  }
+  take_over(network, in_vain);
+}
+
+// What is asked of the tree, and who is left running, are questions of more
+// than the content.
+std::optional<SearchProgress> OpenQuestions::in_vain(
+    const AskedContent& network, const QuestionsAsked& asked) const {
+  if (known_ == nullptr || asked.of_tree || asked.left_running) {
+    return std::nullopt;
+  }
+  const auto bytes = known_->find_bytes(network.of(asked, sightings_));
+  return bytes ? progress_in(*bytes) : std::nullopt;
+}
+
+void OpenQuestions::take_over(const AskedContent& network,
+                              const QuestionsAsked& asked) {
   for (std::uint32_t n = 0; n < asked.nodes.size(); ++n) {
     for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
-      if (!asked.nodes[n][q] || searched.nodes[n][q]) continue;
+      if (!asked.nodes[n][q]) continue;
       never_[n].set(q);
-      if (known_ == nullptr) continue;
-      known_->keep(network.of(NodeId{n}, q), nullptr);
+      if (known_ != nullptr) known_->keep(network.of(NodeId{n}, q), nullptr);
     }
   }
   for (std::size_t i = 0; i < asked.sightings.size(); ++i) {
-    if (known_ == nullptr || !asked.sightings[i] ||
-        searched.sightings.found()[i]) {
-      continue;
-    }
+    if (known_ == nullptr || !asked.sightings[i]) continue;
     known_->keep(network.of(sightings_[i]), nullptr);
   }
+}
+
+void OpenQuestions::share_in_vain(const AskedContent& network,
+                                  const QuestionsAsked& asked,
+                                  const SearchProgress& progress) const {
+  if (known_ == nullptr || asked.of_tree || asked.left_running) return;
+  known_->share_bytes(network.of(asked, sightings_), bytes_of(progress));
 }
 
 }  // namespace btcheck

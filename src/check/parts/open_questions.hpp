@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "check/findings/suspicion.hpp"
@@ -12,6 +14,7 @@
 #include "check/questions/witnesses.hpp"
 #include "explore/components/component_store.hpp"
 #include "explore/components/network_content.hpp"
+#include "explore/state/limits.hpp"
 #include "model/automata/network.hpp"
 
 namespace btcheck {
@@ -26,8 +29,12 @@ class AskedContent {
 
   ContentHash of(NodeId node, std::size_t question) const;
   ContentHash of(const Sighting& sighting) const;
+  // Of all that is asked of single nodes, in one search.
+  ContentHash of(const QuestionsAsked& asked,
+                 const std::vector<Sighting>& sightings) const;
 
  private:
+  void put(const Sighting& sighting, std::vector<std::int32_t>& to) const;
   std::int32_t number(NodeId node) const {
     return content_.number(network_.node_automaton[index(node)]);
   }
@@ -53,6 +60,15 @@ class OpenQuestions {
   // What a complete search of the network has been asked for in vain is known
   // from then on.
   void keep(const AskedContent& network, const DefaultQuestions& searched);
+
+  // How far a complete search of the network came that was asked all that, and
+  // nothing else, in vain: in another process, where what is known is kept for
+  // others. What it was asked for is known then as if it had been here.
+  std::optional<SearchProgress> in_vain(const AskedContent& network,
+                                        const QuestionsAsked& asked) const;
+  void take_over(const AskedContent& network, const QuestionsAsked& asked);
+  void share_in_vain(const AskedContent& network, const QuestionsAsked& asked,
+                     const SearchProgress& progress) const;
 
   const NeverDone& never() const { return never_; }
 

@@ -115,6 +115,7 @@ void settle_search(const OptionWords& words, Options& options) {
   settle_reduction(words, options);
   options.threads = core_count();
   options.scratch_dir = words.value("--on-disk");
+  options.cache_dir = words.value("--cache");
   settle_number(words, "--threads", 1, kMostThreads, options.threads);
   settle_number(words, "--max-states", 1, UINT64_MAX, options.max_states);
   settle_seconds(words, "--timeout",

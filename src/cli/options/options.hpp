@@ -207,6 +207,7 @@ struct Options {
   bool any_count = false;     // --any-count
   std::string trace_dir;
   std::string scratch_dir;  // --on-disk; "": nothing goes to disk
+  std::string cache_dir;    // --cache; "": what is known is forgotten
   ExportFormat format = ExportFormat::Dot;
   std::string space;                  // export: --namespace; "": one of its own
   std::optional<std::uint16_t> view;  // --view: the port; 0: any

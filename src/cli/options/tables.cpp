@@ -305,6 +305,8 @@ constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space,
                                   Demo,  Init,  Command::Answer};
 constexpr CommandSet kChecks = {Check, Batch, Demo, Init, Command::Answer};
+constexpr CommandSet kKeepsParts = {Check, Batch, Init,  Command::Answer, Serve,
+                                    Mcp,   Lsp,   Tests, Command::Diff};
 constexpr CommandSet kCountsStates = {
     Check,           Batch, Space, Demo, Init,  Conform,
     Command::Answer, Serve, Mcp,   Lsp,  Tests, Command::Diff};
@@ -538,6 +540,14 @@ constexpr OptionRow kOptions[] = {
      .help = "at the limit of --memory, go on in this directory: space, and "
              "rules about single states",
      .commands = kSearches},
+    {.name = "--cache",
+     .value = "DIRECTORY",
+     .names = ValueKind::Directory,
+     .fallback = "forget it",
+     .help = "keep what is found out of parts of large trees in this "
+             "directory, for the next time",
+     .commands = kKeepsParts,
+     .example = "btcheck TREE --cache .btcheck-cache"},
     {.name = "--timeout",
      .value = "SECONDS",
      .fallback = "never",

@@ -149,17 +149,47 @@ std::optional<std::vector<PartMember>> ComponentTable::members(AutomatonId root,
   return all;
 }
 
+bool ComponentTable::fits(const Component& shape, const CutPart& part,
+                          const std::vector<PartMember>& members) const {
+  const auto edges_of = [&](const PartMember& member) {
+    return member.component == nullptr
+               ? network_.automaton(member.automaton).edges.size()
+               : member.component->shape->automaton.edges.size();
+  };
+  const auto& gate = shape.automaton.gate;
+  const bool has_its_gate =
+      part.is_called() ? gate == part.gate() : !gate.has_value();
+  return shape.location_id == part.location() &&
+         shape.memory_id == part.memory() && has_its_gate &&
+         shape.own_ == part.own() &&
+         std::ranges::all_of(shape.spoken_of,
+                             [&](VariableId each) {
+                               return index(each) < part.names().size();
+                             }) &&
+         std::ranges::none_of(shape.automaton.edges,
+                              [&](const Edge& edge) {
+                                return part.ticks() != TickSemantics::None &&
+                                       edge.when.needs_clock();
+                              }) &&
+         std::ranges::all_of(shape.arcs_, [&](const Component::Arc& arc) {
+           const auto [number, edge] = arc.member;
+           return number < members.size() && edge < edges_of(members[number]);
+         });
+}
+
 std::optional<PlacedComponent> ComponentTable::made(
     AutomatonId root, PartSide side, std::vector<PartMember> members) {
   const CutPart part(*this, root, side, members);
   const ContentHash made_of = part.hash();
-  std::optional<ComponentStore::Known> shape = store_.find(made_of);
+  std::optional<ComponentStore::Known> shape = store_.find(
+      made_of,
+      [&](const Component& other) { return fits(other, part, members); });
   if (!shape) {
     shape = nullptr;
     if (auto drawn = OpenPart(part, limits_).take()) {
       shape = std::make_shared<const Component>(std::move(*drawn));
     }
-    store_.keep(made_of, *shape);
+    store_.share(made_of, *shape);
   }
   if (*shape == nullptr) return std::nullopt;
   return PlacedComponent{
@@ -278,6 +308,27 @@ std::size_t Component::bytes() const {
   return states_.size() * (kBytesOfState + own_.size() * sizeof(int)) +
          arcs_.size() * sizeof(Arc) + first_.size() * sizeof(first_[0]) +
          automaton.edges.size() * kBytesOfEdge + sizeof(*this);
+}
+
+void Component::tell_content() {
+  std::vector<std::int32_t> told;
+  for (const Variable* each : {&location, &memory}) {
+    told.insert(told.end(), {each->min, each->max, each->initial});
+  }
+  told.push_back(is_instant);
+  told.push_back(static_cast<std::int32_t>(later.size()));
+  told.insert(told.end(), later.begin(), later.end());
+  spoken_of = {location_id, memory_id};
+  append(
+      automaton,
+      [&](VariableId each) {
+        const auto known = std::ranges::find(spoken_of, each);
+        const auto number = known - spoken_of.begin();
+        if (known == spoken_of.end()) spoken_of.push_back(each);
+        return VariableId{static_cast<std::uint32_t>(number)};
+      },
+      told);
+  content = hash_of(told);
 }
 
 // A shortest way from a state to one that stands there, silent but for one step

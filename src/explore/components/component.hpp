@@ -22,6 +22,7 @@
 
 namespace btcheck {
 
+class CutPart;
 struct PlacedComponent;
 
 // Which part of a network: the subtree of an automaton, or what is outside of
@@ -88,6 +89,7 @@ class Component {
   std::size_t bytes() const;
 
  private:
+  friend class ComponentBytes;
   friend class ComponentTable;
   friend class OpenPart;
 
@@ -111,6 +113,8 @@ class Component {
       std::uint32_t from, std::uint32_t label,
       const std::function<bool(std::uint32_t)>& ends) const;
   bool is_silent(std::uint32_t state) const;
+  // What a part that contains it can know of it: `spoken_of` and `content`.
+  void tell_content();
   std::span<const Arc> arcs(std::uint32_t state) const {
     return {arcs_.data() + first_[state], arcs_.data() + first_[state + 1]};
   }
@@ -248,6 +252,10 @@ class ComponentTable {
   std::optional<std::vector<PartMember>> members(AutomatonId root,
                                                  PartSide side);
   bool may_be_component(AutomatonId root) const;
+  // A component that somebody else has made of a part like this one does not
+  // speak of anything that the part does not have.
+  bool fits(const Component& shape, const CutPart& part,
+            const std::vector<PartMember>& members) const;
   std::optional<PlacedComponent> made(AutomatonId root, PartSide side,
                                       std::vector<PartMember> members);
   std::optional<std::uint32_t> state_of(const Valuation& state,

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "explore/components/component.hpp"
+#include "explore/components/component_bytes.hpp"
+#include "explore/components/kept_contents.hpp"
 
 namespace btcheck {
 
@@ -21,21 +23,76 @@ const std::shared_ptr<ComponentStore>& ComponentStore::of_program() {
 }
 
 std::optional<ComponentStore::Known> ComponentStore::find(
-    const ContentHash& made_of) {
-  const std::lock_guard lock(mutex_);
-  if (const auto known = young_.all.find(made_of); known != young_.all.end()) {
-    return known->second;
+    const ContentHash& made_of, const Fits& fits) {
+  std::shared_ptr<KeptContents> others;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto young = young_.all.find(made_of);
+    if (young != young_.all.end()) return young->second;
+    if (const auto old = old_.all.find(made_of); old != old_.all.end()) {
+      Known component = old->second;
+      add(made_of, component);
+      return component;
+    }
+    others = others_;
   }
-  const auto known = old_.all.find(made_of);
-  if (known == old_.all.end()) return std::nullopt;
-  Known component = known->second;
-  add(made_of, component);
-  return component;
+  if (others == nullptr || !fits) return std::nullopt;
+  const auto bytes = others->find(made_of);
+  if (!bytes) return std::nullopt;
+  auto known = component_in(*bytes, made_of);
+  if (!known || (*known != nullptr && !fits(**known))) {
+    others->refuse(made_of);
+    return std::nullopt;
+  }
+  keep(made_of, *known);
+  return known;
 }
 
 void ComponentStore::keep(const ContentHash& made_of, Known component) {
   const std::lock_guard lock(mutex_);
   add(made_of, std::move(component));
+}
+
+void ComponentStore::share(const ContentHash& made_of, Known component) {
+  if (const auto others = this->others()) {
+    if (auto bytes = bytes_of(component.get(), made_of)) {
+      others->keep(made_of, std::move(*bytes));
+    }
+  }
+  keep(made_of, std::move(component));
+}
+
+std::optional<std::string> ComponentStore::find_bytes(
+    const ContentHash& content) const {
+  const auto others = this->others();
+  if (others == nullptr) return std::nullopt;
+  const auto bytes = others->find(content);
+  if (!bytes) return std::nullopt;
+  const auto inside = unsealed(*bytes, content);
+  if (inside) return std::string(*inside);
+  others->refuse(content);
+  return std::nullopt;
+}
+
+void ComponentStore::share_bytes(const ContentHash& content,
+                                 std::string bytes) const {
+  if (const auto others = this->others()) {
+    others->keep(content, sealed(std::move(bytes), content));
+  }
+}
+
+std::shared_ptr<KeptContents> ComponentStore::others() const {
+  const std::lock_guard lock(mutex_);
+  return others_;
+}
+
+void ComponentStore::keep_in(std::shared_ptr<KeptContents> others) {
+  const std::lock_guard lock(mutex_);
+  others_ = std::move(others);
+}
+
+void ComponentStore::write() const {
+  if (const auto others = this->others()) others->write();
 }
 
 void ComponentStore::forget() {

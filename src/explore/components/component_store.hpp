@@ -5,15 +5,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string>
 #include <unordered_map>
 
 namespace btcheck {
 
 class Component;
+class KeptContents;
 
 // What stands for a content: 128 bits of XXH3. Two contents of one hash would
 // be taken for the same; of 10^12 that is one chance in 10^14.
@@ -37,11 +40,25 @@ class ComponentStore {
   // The one for all checks of this program that share what they know.
   static const std::shared_ptr<ComponentStore>& of_program();
 
-  // Nothing where it is not known; null where none can be made of that.
+  // Nothing where it is not known; null where none can be made of that. With
+  // `fits`, others are asked as well (keep_in): of what they have a component
+  // is believed where it fits who asks.
   using Known = std::shared_ptr<const Component>;
-  std::optional<Known> find(const ContentHash& made_of);
+  using Fits = std::function<bool(const Component&)>;
+  std::optional<Known> find(const ContentHash& made_of, const Fits& fits = {});
   void keep(const ContentHash& made_of, Known component);
+  // And has others keep it.
+  void share(const ContentHash& made_of, Known component);
+  // All that is in memory.
   void forget();
+
+  // From now on these others are asked and told; null: nobody.
+  void keep_in(std::shared_ptr<KeptContents> others);
+  // What only others keep: bytes of any kind, as they were.
+  std::optional<std::string> find_bytes(const ContentHash& content) const;
+  void share_bytes(const ContentHash& content, std::string bytes) const;
+  // Has them write what they have gathered.
+  void write() const;
 
   std::size_t bytes() const;
   std::size_t size() const;
@@ -56,11 +73,13 @@ class ComponentStore {
   };
 
   void add(const ContentHash& made_of, Known component);
+  std::shared_ptr<KeptContents> others() const;
 
   const std::size_t most_bytes_;
   mutable std::mutex mutex_;
   Generation young_;
   Generation old_;
+  std::shared_ptr<KeptContents> others_;  // null: nowhere
 };
 
 }  // namespace btcheck

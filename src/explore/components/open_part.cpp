@@ -530,28 +530,6 @@ void put_in_order(Minimal& small, const std::vector<std::uint32_t>& rank) {
   }
 }
 
-// What a part that contains it can know of it.
-void tell_content(Component& made) {
-  std::vector<std::int32_t> content;
-  for (const Variable* each : {&made.location, &made.memory}) {
-    content.insert(content.end(), {each->min, each->max, each->initial});
-  }
-  content.push_back(made.is_instant);
-  content.push_back(static_cast<std::int32_t>(made.later.size()));
-  content.insert(content.end(), made.later.begin(), made.later.end());
-  made.spoken_of = {made.location_id, made.memory_id};
-  append(
-      made.automaton,
-      [&](VariableId each) {
-        const auto known = std::ranges::find(made.spoken_of, each);
-        const auto number = known - made.spoken_of.begin();
-        if (known == made.spoken_of.end()) made.spoken_of.push_back(each);
-        return VariableId{static_cast<std::uint32_t>(number)};
-      },
-      content);
-  made.content = hash_of(content);
-}
-
 }  // namespace
 
 // By label: its place among all of the part, whatever it was found by.
@@ -650,7 +628,7 @@ std::optional<Component> OpenPart::drawn() {
   const bool is_timeless = std::ranges::all_of(
       made.later, [m = 0](int to) mutable { return to == m++; });
   if (is_called_ && is_timeless) automaton.locals = {made.memory_id};
-  tell_content(made);
+  made.tell_content();
   made.own_ = part_.own();
   made.place_of_ = std::move(small.state_of);
   made.first_.push_back(0);

@@ -41,7 +41,9 @@ constexpr CodeRow kCommandCodes[] = {
      .summary = "an output cannot be written",
      .description = "The file or directory for a report, a run or a graph "
                     "cannot be written to. Where that can be known before the "
-                    "check begins, nothing is checked, so no result is lost.",
+                    "check begins, nothing is checked, so no result is lost. "
+                    "Of the directory of --cache it is a warning: what is "
+                    "told is the same without it.",
      .help = "Make the directory, or choose another place.",
      .example = {.tree = kOneAction,
                  .command = "tree.btf --format json=nowhere/report.json"}},
