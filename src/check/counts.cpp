@@ -17,7 +17,6 @@
 #include "check/replay/counted_run.hpp"
 #include "check/rules_network.hpp"
 #include "explore/reduce/counters.hpp"
-#include "explore/state/accesses.hpp"
 #include "model/tree/node_types.hpp"
 #include "text/budget.hpp"
 
@@ -49,24 +48,12 @@ bool has_number(const Node& node) {
   return node.repetitions >= least;
 }
 
-bool reads(const Expression& expression, VariableId variable) {
-  bool does = false;
-  for_each_read(expression, [&](VariableId read, std::optional<int>) {
-    does |= read == variable;
-  });
-  return does;
-}
-
-bool reads(const StatePredicate& predicate, VariableId variable) {
-  return reads(predicate.expression, variable) ||
-         (predicate.when_dead && reads(*predicate.when_dead, variable));
-}
-
 // Whether the rule, with all that is assumed, looks at the variable.
 bool looks_at(const BoundFile& file, const BoundProperty& rule,
               VariableId variable) {
   const auto does = [&](const StatePredicate& predicate) {
-    return reads(predicate, variable);
+    return looks_at(predicate.expression, variable) ||
+           (predicate.when_dead && looks_at(*predicate.when_dead, variable));
   };
   const auto is_about = [&](const Proposition& proposition) {
     return does(proposition.of);

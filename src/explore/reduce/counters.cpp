@@ -19,14 +19,6 @@
 namespace btcheck {
 namespace {
 
-bool reads(const Expression& expression, VariableId variable) {
-  bool does = false;
-  for_each_read(expression, [&](VariableId read, std::optional<int>) {
-    does |= read == variable;
-  });
-  return does;
-}
-
 bool reads_only(const Expression& expression, VariableId variable) {
   bool does = true;
   for_each_read(expression, [&](VariableId read, std::optional<int>) {
@@ -59,7 +51,7 @@ class CounterUses {
     CounterUse use;
     Expression asked;
     for (const Expression& conjunct : edge.guard.conjuncts()) {
-      Expression& part = reads(conjunct, counter_) ? asked : use.rest;
+      Expression& part = looks_at(conjunct, counter_) ? asked : use.rest;
       part = both(std::move(part), conjunct);
     }
     if (!asked.is_true()) ask(asked, use);
@@ -67,7 +59,7 @@ class CounterUses {
       if (update.variable == counter_) {
         use.makes =
             use.makes == Makes::Nothing ? made_by(update, use) : Makes::Other;
-      } else if (reads(update.value, counter_)) {
+      } else if (looks_at(update.value, counter_)) {
         use.makes = Makes::Other;
       } else {
         use.others.push_back(update);
@@ -233,6 +225,14 @@ class CountsBeyond {
 };
 
 }  // namespace
+
+bool looks_at(const Expression& expression, VariableId variable) {
+  bool does = false;
+  for_each_read(expression, [&](VariableId read, std::optional<int>) {
+    does |= read == variable;
+  });
+  return does;
+}
 
 std::optional<RoundCounter> round_counter(const Network& network, NodeId node) {
   const auto variable = local_of(network, node, LocalRole::Rounds);
