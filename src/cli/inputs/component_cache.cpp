@@ -51,6 +51,12 @@ std::vector<std::int32_t> numbers_of(const std::string& text) {
   return {text.begin(), text.end()};
 }
 
+// What SQLite says of a file that it cannot make sense of.
+bool is_damage(int code) {
+  return code == SQLITE_CORRUPT || code == SQLITE_NOTADB ||
+         code == SQLITE_ERROR;
+}
+
 std::int64_t now() { return static_cast<std::int64_t>(std::time(nullptr)); }
 
 }  // namespace
@@ -184,30 +190,21 @@ bool ComponentCache::has_table() {
   return all && *all == fmt::format("{}\n{}\n", kTable, kIndex);
 }
 
-// In an empty database. Another process may be about to do the same.
+// In an empty database, or one in which another process has just made it.
+// False for any other, which is damaged.
 bool ComponentCache::make_table() {
-  const auto there = text_of("SELECT name FROM sqlite_master");
-  if (!there) {
-    const int code = sqlite3_errcode(base_.get());
-    if (code != SQLITE_CORRUPT && code != SQLITE_NOTADB) {
-      give_up(sqlite3_errmsg(base_.get()));
-    }
-    return false;
+  std::optional<std::string> there;
+  if (run("BEGIN IMMEDIATE")) {
+    there = text_of("SELECT name FROM sqlite_master");
+    const bool is_ready =
+        has_table() || (there && there->empty() && run(kTable) && run(kIndex));
+    if (is_ready && run("COMMIT")) return true;
   }
-  if (!there->empty()) return false;
-  if (!run("BEGIN IMMEDIATE")) {
-    give_up(sqlite3_errmsg(base_.get()));
-    return false;
-  }
-  if (!has_table() && (!run(kTable) || !run(kIndex))) {
-    const std::string why = sqlite3_errmsg(base_.get());
-    run("ROLLBACK");
-    give_up(why);
-    return false;
-  }
-  if (run("COMMIT")) return true;
-  give_up(sqlite3_errmsg(base_.get()));
-  run("ROLLBACK");
+  const int code = sqlite3_errcode(base_.get());
+  const std::string why = sqlite3_errmsg(base_.get());
+  if (sqlite3_get_autocommit(base_.get()) == 0) run("ROLLBACK");
+  const bool is_another = there && !there->empty();
+  if (!is_another && !is_damage(code)) give_up(why);
   return false;
 }
 
@@ -240,7 +237,7 @@ bool ComponentCache::make_anew() {
 
 bool ComponentCache::recover(int code) {
   code &= 0xff;
-  if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
+  if (is_damage(code)) {
     // As it was opened, from the beginning.
     if (!make_anew()) return false;
     close();
@@ -338,16 +335,22 @@ bool ComponentCache::write_all() {
     if (sqlite3_get_autocommit(base_.get()) == 0) run("ROLLBACK");
     const bool is_busy = code == SQLITE_BUSY && ++times_busy_ < kMostTimesBusy;
     if (is_busy && gathered_bytes_ < kMostGathered) return false;
-    if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
-      recover(code);
-    } else {
-      is_read_only_ = true;
-      complaint_ = "nothing new is kept: " + why;
+    if (is_damage(code)) {
+      return recover(code) && write_all();  // once: it is made anew once
     }
+    if (code == SQLITE_FULL && !std::exchange(was_full_, true) &&
+        run("BEGIN IMMEDIATE") && make_room(most_bytes_ / 2) && run("COMMIT")) {
+      return write_all();
+    }
+    is_read_only_ = true;
+    complaint_ = "nothing new is kept: " + why;
     return false;
   };
   if (!run("BEGIN IMMEDIATE")) return fail();
-  if (!make_room(2 * gathered_bytes_)) return fail();
+  // A row may split two pages, though of many rows few do.
+  const std::uint64_t pages =
+      2 * std::min<std::uint64_t>(gathered_.size(), 1024);
+  if (!make_room(2 * gathered_bytes_ + pages * kPageBytes)) return fail();
   const std::int64_t time = now();
   {
     const Statement add = made(
@@ -376,6 +379,7 @@ bool ComponentCache::write_all() {
     }
   }
   if (!run("COMMIT")) return fail();
+  was_full_ = false;
   counts_.added += gathered_.size();
   gathered_.clear();
   gathered_bytes_ = 0;

@@ -90,6 +90,7 @@ class ComponentCache final : public KeptContents {
   bool is_given_up_ = false;
   bool is_read_only_ = false;
   bool is_made_anew_ = false;
+  bool was_full_ = false;  // when it was written to last
   int times_busy_ = 0;
   std::vector<std::pair<ContentHash, std::string>> gathered_;  // by key
   std::size_t gathered_bytes_ = 0;
