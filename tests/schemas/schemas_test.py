@@ -203,6 +203,13 @@ def look_at_batches(out):
                                  "--format", "jsonl"), "progress")
 
 
+def look_at_counts(out):
+    report = btcheck(sources / "examples/diff", "before.xml", "-q", "-e", "possible root.success",
+                     "--any-count", "--format", "json", "--format", f"jsonl={out}/counts")
+    written("report", report, "every count")
+    lines("report-line", (out / "counts").read_text(), "every count")
+
+
 def look_at_faults(out):
     """Trees with faults that are silent, noticed, recovered from; with rules and pairs."""
     for folder, words in (("whatif_rules", ("-e", "never Charge.failure", "--order", 2)),
@@ -308,6 +315,7 @@ with tempfile.TemporaryDirectory() as name:
     look_at_explanations(out)
     look_at_library()
     look_at_batches(out)
+    look_at_counts(out)
     look_at_faults(out)
     look_at_pairs()
     trees = sorted(file for form in ("btf", "xml") for file in regress.glob(f"*/tree.{form}"))
