@@ -15,6 +15,8 @@
 #include "explore/components/composition.hpp"
 #include "explore/state/split_mix.hpp"
 #include "explore/state/step.hpp"
+#include "model/lowering.hpp"
+#include "model/tree_file.hpp"
 #include "reference/effort.hpp"
 #include "reference/kept_bytes.hpp"
 #include "reference/reduction_cases.hpp"
@@ -114,6 +116,35 @@ TEST_CASE("components are what they were once they have been bytes") {
   MESSAGE(census.components << " components, " << census.nothings
                             << " parts that are none");
   CHECK_COVERED(census.components > 500);
+}
+
+// Which random trees hardly have.
+TEST_CASE("a round of an unknown number is one once it has been bytes") {
+  const auto tree = read_tree(
+      "t.xml",
+      "<root BTCPP_format=\"4\" main_tree_to_execute=\"T\">"
+      "<BehaviorTree ID=\"T\"><Sequence><Repeat num_cycles=\"-1\">"
+      "<Fallback><Action ID=\"Go\"/><Action ID=\"Wait\"/></Fallback></Repeat>"
+      "<Action ID=\"End\"/></Sequence></BehaviorTree></root>",
+      {});
+  REQUIRE(tree.value);
+  const Network network = lower(*tree.value, TickSemantics::Root);
+  ComponentStore store;
+  const auto kept = std::make_shared<KeptBytes>();
+  store.keep_in(kept);
+  ask_for_all(network, store);
+  Census census;
+  CHECK(flaw_of(store, *kept, census) == "");
+  std::size_t rounds = 0;
+  for (const auto& [key, bytes] : kept->all) {
+    const auto known = component_in(bytes, {key.first, key.second});
+    REQUIRE(known);
+    if (*known == nullptr) continue;
+    for (const Edge& edge : (*known)->automaton.edges) {
+      rounds += edge.is_like_time;
+    }
+  }
+  CHECK(rounds > 0);
 }
 
 TEST_CASE("bytes that are cut off or changed are no component") {

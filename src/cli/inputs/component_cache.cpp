@@ -342,6 +342,7 @@ bool ComponentCache::write_all() {
         run("BEGIN IMMEDIATE") && make_room(most_bytes_ / 2) && run("COMMIT")) {
       return write_all();
     }
+    if (sqlite3_get_autocommit(base_.get()) == 0) run("ROLLBACK");
     is_read_only_ = true;
     complaint_ = "nothing new is kept: " + why;
     return false;
