@@ -36,8 +36,8 @@ constexpr TickSemantics kAllTicks[] = {
 constexpr Profile kProfiles[] = {Profile::Btcpp4, Profile::Btcpp38,
                                  Profile::Nav2Humble, Profile::Nav2Jazzy,
                                  Profile::Nav2Main};
-constexpr std::uint64_t kMostStates = 5000;
-constexpr int kRules = 5;
+constexpr std::uint64_t kMostStates = 2000;
+constexpr int kRules = 4;
 
 // The words of .btf and XML that a number follows.
 constexpr std::array kAttributes = {":repeat ",        ":num_attempts ",
