@@ -113,7 +113,8 @@ std::optional<std::uint32_t> Reporter::only_edge(const Valuation& state) const {
     for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
       const std::uint32_t edge = automaton.first_edge + e;
       if (!interpreter_.may_fire(state, edge)) continue;
-      if (is_choice(network_, state.variables, edge)) return std::nullopt;
+      // Beside it another branch of a Parallel may go on.
+      if (is_choice(network_, state.variables, edge)) break;
       return edge;
     }
   }
