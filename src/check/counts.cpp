@@ -18,6 +18,7 @@
 #include "check/rules_network.hpp"
 #include "explore/reduce/counters.hpp"
 #include "model/tree/node_types.hpp"
+#include "model/tree/reads.hpp"
 #include "text/budget.hpp"
 
 namespace btcheck {
@@ -52,8 +53,8 @@ bool has_number(const Node& node) {
 bool looks_at(const BoundFile& file, const BoundProperty& rule,
               VariableId variable) {
   const auto does = [&](const StatePredicate& predicate) {
-    return looks_at(predicate.expression, variable) ||
-           (predicate.when_dead && looks_at(*predicate.when_dead, variable));
+    return reads(predicate.expression, variable) ||
+           (predicate.when_dead && reads(*predicate.when_dead, variable));
   };
   const auto is_about = [&](const Proposition& proposition) {
     return does(proposition.of);

@@ -280,9 +280,10 @@ int run_program(int argc, const char* const* argv) {
     allow(options);
     const BudgetScope budget(&limits);
     const Guard guard(limits);
-    if (!open_cache(options)) return static_cast<int>(ExitCode::BadInput);
+    const auto cache = open_cache(options);
+    if (!cache) return static_cast<int>(ExitCode::BadInput);
     const ExitCode code = run_within(options);
-    close_cache(options);
+    close_cache(options, *cache);
     flush_output();
     return static_cast<int>(code);
   } catch (const Refusal& refused) {

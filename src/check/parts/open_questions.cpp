@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <string>
 
 namespace btcheck {
@@ -13,30 +14,20 @@ constexpr std::int32_t kOfNode = 0;
 constexpr std::int32_t kOfSighting = 1;
 constexpr std::int32_t kOfSearch = 2;
 
-// Eight bytes for each number, the lowest first.
+// As they lie in memory: only this build, on a machine like this one, reads
+// what it has kept.
 using Figures = std::array<std::uint64_t, 5>;
-constexpr std::size_t kBytesOfFigure = 8;
 
 std::string bytes_of(const SearchProgress& progress) {
   const auto& [states, expanded, transitions, depth, bytes] = progress;
-  std::string text;
-  for (const std::uint64_t each :
-       Figures{states, expanded, transitions, depth, bytes}) {
-    for (std::size_t i = 0; i < kBytesOfFigure; ++i) {
-      text += static_cast<char>(each >> 8 * i & 0xff);
-    }
-  }
-  return text;
+  const Figures figures{states, expanded, transitions, depth, bytes};
+  return {reinterpret_cast<const char*>(figures.data()), sizeof figures};
 }
 
 std::optional<SearchProgress> progress_in(const std::string& text) {
   Figures figures{};
-  if (text.size() != kBytesOfFigure * figures.size()) return std::nullopt;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    figures[i / kBytesOfFigure] |= std::uint64_t{byte}
-                                   << 8 * (i % kBytesOfFigure);
-  }
+  if (text.size() != sizeof figures) return std::nullopt;
+  std::memcpy(figures.data(), text.data(), sizeof figures);
   const auto [states, expanded, transitions, depth, bytes] = figures;
   return SearchProgress{states, expanded, transitions, depth, bytes};
 }

@@ -422,16 +422,6 @@ std::string ComponentCache::complaint() const {
 
 namespace {
 
-struct ProgramCache {
-  std::shared_ptr<ComponentCache> cache;  // null: nothing is kept
-  std::string told;                       // of what is wrong with it
-};
-
-ProgramCache& cache_of_program() {
-  static ProgramCache cache;
-  return cache;
-}
-
 void warn(const Options& options, const std::string& complaint) {
   if (complaint.empty()) return;
   Diagnostic warning = file_error(
@@ -443,28 +433,28 @@ void warn(const Options& options, const std::string& complaint) {
 
 }  // namespace
 
-bool open_cache(const Options& options) {
-  if (options.cache_dir.empty()) return true;
+std::optional<OpenCache> open_cache(const Options& options) {
+  if (options.cache_dir.empty()) return OpenCache{};
   const std::string complaint = make_directory(options.cache_dir);
   if (!complaint.empty()) {
     complain("BT0004", "--cache: " + complaint);
-    return false;
+    return std::nullopt;
   }
   if (build_identity().empty()) {
     warn(options, "the system does not say which btcheck this is");
-    return true;
+    return OpenCache{};
   }
   const auto cache =
       std::make_shared<ComponentCache>(options.cache_dir, build_identity());
   cache->try_out();
-  cache_of_program() = {cache, cache->complaint()};
-  warn(options, cache_of_program().told);
+  OpenCache opened{cache, cache->complaint()};
+  warn(options, opened.told);
   ComponentStore::of_program()->keep_in(cache);
-  return true;
+  return opened;
 }
 
-void close_cache(const Options& options) {
-  const auto [cache, told] = std::exchange(cache_of_program(), {});
+void close_cache(const Options& options, const OpenCache& opened) {
+  const auto& [cache, told] = opened;
   if (cache == nullptr) return;
   ComponentStore::of_program()->keep_in(nullptr);
   cache->write();

@@ -99,12 +99,17 @@ class ComponentCache final : public KeptContents {
   std::string complaint_;
 };
 
-// Has the checks of this program keep what they know of components in the
-// folder of --cache, if there is one. Complains, and is false, where the folder
-// cannot be made; warns of anything else.
-bool open_cache(const Options& options);
+// What the checks of this program keep what they know of components in.
+struct OpenCache {
+  std::shared_ptr<ComponentCache> cache;  // null: nothing is kept
+  std::string told;                       // of what is wrong with it
+};
+
+// Has them keep it in the folder of --cache, if there is one. Complains, and
+// gives nothing, where the folder cannot be made; warns of anything else.
+std::optional<OpenCache> open_cache(const Options& options);
 // What is still gathered is written. Warns of what went wrong, and tells with
 // -v how much was known.
-void close_cache(const Options& options);
+void close_cache(const Options& options, const OpenCache& opened);
 
 }  // namespace btcheck

@@ -15,6 +15,7 @@
 
 #include "explore/reduce/contexts.hpp"
 #include "explore/state/accesses.hpp"
+#include "model/tree/reads.hpp"
 
 namespace btcheck {
 namespace {
@@ -40,6 +41,11 @@ struct CounterUse {
   int made = 0;     // Constant
   Expression rest;  // of the guard
   std::vector<Assignment> others;
+
+  // Whether the edge counts a round.
+  bool counts() const {
+    return makes == Makes::OneMore || makes == Makes::Constant;
+  }
 };
 
 class CounterUses {
@@ -51,7 +57,7 @@ class CounterUses {
     CounterUse use;
     Expression asked;
     for (const Expression& conjunct : edge.guard.conjuncts()) {
-      Expression& part = looks_at(conjunct, counter_) ? asked : use.rest;
+      Expression& part = reads(conjunct, counter_) ? asked : use.rest;
       part = both(std::move(part), conjunct);
     }
     if (!asked.is_true()) ask(asked, use);
@@ -59,18 +65,13 @@ class CounterUses {
       if (update.variable == counter_) {
         use.makes =
             use.makes == Makes::Nothing ? made_by(update, use) : Makes::Other;
-      } else if (looks_at(update.value, counter_)) {
+      } else if (reads(update.value, counter_)) {
         use.makes = Makes::Other;
       } else {
         use.others.push_back(update);
       }
     }
     return use;
-  }
-
-  // Whether the edge counts a round.
-  bool counts(const CounterUse& use) const {
-    return use.makes == Makes::OneMore || use.makes == Makes::Constant;
   }
 
   // Whether a counter may be used so; of one for each value together with the
@@ -80,7 +81,7 @@ class CounterUses {
         use.asks != Asks::Nothing || use.makes != Makes::Nothing;
     if (is_touched && edge.when.needs_clock()) return false;
     if (use.asks == Asks::Other || use.makes == Makes::Other) return false;
-    if (counts(use) && edge.is_like_time) return false;
+    if (use.counts() && edge.is_like_time) return false;
     if (use.makes == Makes::Constant) {
       return (use.asks == Asks::OneValue && use.made == use.asked + 1) ||
              (use.asks == Asks::IsNotLast && last_ == 1 && use.made == 1);
@@ -186,7 +187,7 @@ class CountsBeyond {
       if (use.makes == Makes::Zero) {
         edge.updates.push_back({counter.variable, Expression::constant(0)});
       }
-      if (use.makes != Makes::OneMore && use.makes != Makes::Constant) continue;
+      if (!use.counts()) continue;
       // It may be either afterwards.
       edge.updates.push_back({counter.variable, read(counter.variable)});
       if (use.asks != Asks::Nothing) continue;
@@ -225,14 +226,6 @@ class CountsBeyond {
 };
 
 }  // namespace
-
-bool looks_at(const Expression& expression, VariableId variable) {
-  bool does = false;
-  for_each_read(expression, [&](VariableId read, std::optional<int>) {
-    does |= read == variable;
-  });
-  return does;
-}
 
 std::optional<RoundCounter> round_counter(const Network& network, NodeId node) {
   const auto variable = local_of(network, node, LocalRole::Rounds);
@@ -278,7 +271,7 @@ void leave_rounds_open(const RoundCounter& counter, Network& network) {
       edge.updates.push_back({uncounted, Expression::constant(0)});
     }
     const bool is_for_zero = use.asks != Asks::OneValue || use.asked == 0;
-    if (!all.counts(use) || !is_for_zero) continue;
+    if (!use.counts() || !is_for_zero) continue;
     Edge& other = uncounting.emplace_back(edge);
     other.guard = both(use.rest, equals(counter.variable, 0));
     other.updates = use.others;

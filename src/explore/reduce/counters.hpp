@@ -27,9 +27,6 @@ std::optional<RoundCounter> round_counter(const Network& network, NodeId node);
 // it.
 inline constexpr std::string_view kUncounted = "uncounted rounds";
 
-// Whether the truth or value of the expression may hang on the variable.
-bool looks_at(const Expression& expression, VariableId variable);
-
 // Makes 0 stand for "at least as many rounds are left as the counter counts":
 // there a round may be counted, or not.
 void leave_rounds_open(const RoundCounter& counter, Network& network);

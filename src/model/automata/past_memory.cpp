@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "model/tree/reads.hpp"
+
 namespace btcheck {
 namespace {
 
@@ -20,13 +22,6 @@ Expression folded(Expression expression) {
   const bool holds =
       expression.evaluate([](const Term&) { return std::int64_t{0}; }) != 0;
   return Expression::constant(holds ? 1 : 0);
-}
-
-bool reads(const Expression& expression, VariableId variable) {
-  return std::ranges::any_of(expression.terms(), [&](const Term& term) {
-    return term.operation == Operation::Variable &&
-           VariableId{static_cast<std::uint32_t>(term.operand)} == variable;
-  });
 }
 
 bool changes(const Automaton& automaton, const Edge& edge,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Who reads a state variable.
+// Who reads a variable.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,10 @@
 
 namespace btcheck {
 
-inline bool reads(const Expression& expression, StateVariableId variable) {
+// A state variable of a tree, or a variable of its network: whichever the
+// expression is about.
+template <class Id>
+bool reads(const Expression& expression, Id variable) {
   return std::ranges::any_of(expression.terms(), [&](const Term& term) {
     return term.operation == Operation::Variable &&
            static_cast<std::uint32_t>(term.operand) == index(variable);

@@ -35,14 +35,22 @@ std::string time_text(int time, TickSemantics ticks) {
   return plural(count, "unit of time", "units of time");
 }
 
+// What the row has for the verdict, being by verdict; null where it ends
+// before.
+template <class Each>
+const Each* found_for(const CheckedFile& file, const PropertyVerdict& verdict,
+                      const std::vector<Each>& row) {
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (&file.verdicts[i] == &verdict) return &row[i];
+  }
+  return nullptr;
+}
+
 // The advice for the verdict, if there is any.
 const TickAdvice* advice_for(const CheckedFile& file,
                              const PropertyVerdict& verdict) {
-  for (std::size_t i = 0; i < file.advice.size(); ++i) {
-    if (&file.verdicts[i] != &verdict || !file.advice[i]) continue;
-    return &*file.advice[i];
-  }
-  return nullptr;
+  const auto* const advice = found_for(file, verdict, file.advice);
+  return advice != nullptr && *advice ? &**advice : nullptr;
 }
 
 // "for every num_attempts >= 2 of RetryUntilSuccessful, line 12"; with every
@@ -306,10 +314,8 @@ std::string_view verdict_word(Verdict verdict) {
 }
 
 CountClaims claims_of(const CheckedFile& file, const PropertyVerdict& verdict) {
-  for (std::size_t i = 0; i < file.counts.size(); ++i) {
-    if (&file.verdicts[i] == &verdict) return file.counts[i];
-  }
-  return {};
+  const CountClaims* const claims = found_for(file, verdict, file.counts);
+  return claims == nullptr ? CountClaims{} : *claims;
 }
 
 std::string advice_text(const CheckedFile& file,
