@@ -264,6 +264,19 @@ TEST_CASE("a guard before an action that runs goes stale") {
                       " (Inverter (Action :ID a)))")) == "a: e@2");
 }
 
+TEST_CASE("what goes stale are the guards that every run has asked") {
+  CHECK(stale(in_tree("(Sequence (Sequence (Condition :ID c) (Condition :ID d))"
+                      " (Action :ID a))")) == "a: c d@2");
+  CHECK(stale(in_tree("(Sequence (Fallback (Condition :ID c) (Condition :ID d))"
+                      " (Action :ID a))")) == "a: c@2");
+  CHECK(stale(in_tree("(Fallback (Inverter (Sequence (Condition :ID c)"
+                      " (Inverter (Condition :ID d)))) (Action :ID a))")) ==
+        "a: c d@2");
+  CHECK(stale(in_tree("(Sequence (ParallelAll (Condition :ID c)"
+                      " (Condition :ID d)) (Action :ID a))")) == "a: c d@2");
+  CHECK(stale(in_tree("(RoundRobin (Condition :ID c) (Action :ID a))")) == "");
+}
+
 TEST_CASE("a guard is not stale where every tick begins anew") {
   CHECK(stale(in_tree("(ReactiveSequence (Condition :ID c)"
                       " (Action :ID a))")) == "");

@@ -55,9 +55,8 @@ Inquiry::Inquiry(const BehaviorTree& tree, const Network& network)
       suspicions_(suspicions_of(normal_)),
       guarded_(guarded_actions(tree, network)),
       sightings_(sightings_of(suspicions_)) {
-  for (const NodeId action : guarded_) {
-    sightings_.push_back(
-        {action, LocationRole::Tick, {{action, NodeStatus::Running}}});
+  for (const GuardedAction& each : guarded_) {
+    sightings_.push_back(each.sighting);
   }
 }
 
@@ -138,12 +137,12 @@ void Inquiry::answer_for_tree(const Seen& seen, bool is_complete,
 void Inquiry::report_guards(const Evidence& evidence,
                             DefaultReport& report) const {
   std::size_t sighting = sightings_.size() - guarded_.size();
-  for (const NodeId action : guarded_) {
+  for (const GuardedAction& each : guarded_) {
     const auto run = evidence.run_to(sighting++);
     if (!run) continue;
-    auto guards = stale_guards(tree_, network_, action, run->steps());
+    auto guards = stale_guards(network_, each, run->steps());
     if (guards.empty()) continue;
-    report.stale_guards.push_back({action, std::move(guards), run});
+    report.stale_guards.push_back({each.sighting.node, std::move(guards), run});
   }
 }
 

@@ -9,6 +9,7 @@
 #include "check/findings/normal_tree.hpp"
 #include "check/findings/suspicion.hpp"
 #include "check/questions/defaults.hpp"
+#include "check/questions/stale_guards.hpp"
 #include "check/questions/witnesses.hpp"
 #include "model/automata/network.hpp"
 #include "model/tree/tree.hpp"
@@ -41,9 +42,8 @@ class Inquiry {
   const Network& network_;
   NormalTree normal_;
   std::vector<Suspicion> suspicions_;
-  std::vector<NodeId> guarded_;
-  // Those of the suspicions in a row, and behind them each guarded action,
-  // ticked while it runs.
+  std::vector<GuardedAction> guarded_;
+  // Those of the suspicions in a row, and behind them those of the guards.
   std::vector<Sighting> sightings_;
 };
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Two watches of the search behind the default report: for what sightings
-// describe, guards among them that are not ticked again while the action behind
-// them runs; and for leaves that still run when a node above them has given
+// describe; and for leaves that still run when a node above them has given
 // control back.
 #pragma once
 
@@ -27,20 +26,6 @@ struct FoundStep {
   // The state in which it is taken; empty where that makes no difference.
   StateVector before = {};
 };
-
-// The actions that may run while guards go stale: to their left under a node
-// that resumes its running child stands a Condition, a SetSV (a measurement) or
-// an Eval whose value can change while the action runs.
-std::vector<NodeId> guarded_actions(const BehaviorTree& tree,
-                                    const Network& network);
-
-// Of an action's guards, in pre-order, those that the run shows to be stale: it
-// ends with the action being ticked while it runs, and each was ticked in the
-// present activation of the node above both, but not since the action has
-// answered running.
-std::vector<NodeId> stale_guards(const BehaviorTree& tree,
-                                 const Network& network, NodeId action,
-                                 const std::vector<Step>& run);
 
 // Looks for the first step that each sighting describes. To be told of single
 // steps as a ReachabilityVisitor is.
@@ -89,6 +74,14 @@ struct LeftRunningStep {
   NodeStatus decision{};
   FoundStep step;  // with which `above` gives control back
 };
+
+// A reactive or parallel node with neither :halt nor :wait decides over the
+// heads of children that still run; on the robot they go on, without a parent
+// that cares (docs/semantics.md, section 4). The statuses in the state in which
+// such a node gives control back tell who they are.
+bool may_leave_behind(const Node& node);
+// Whether the node can be running at all.
+bool may_run(const Network& network, NodeId node);
 
 // The nodes that such a step is about, whether there is one or not: they run,
 // and may be left running.
