@@ -16,6 +16,7 @@
 #include "explore/components/component_store.hpp"
 #include "explore/minimise/partition.hpp"
 #include "explore/reduce/call_protocol.hpp"
+#include "explore/reduce/called_with.hpp"
 #include "explore/state/accesses.hpp"
 #include "explore/state/valuation.hpp"
 #include "model/automata/network.hpp"
@@ -271,6 +272,7 @@ class ComponentTable {
   const Limits limits_;
   const CallProtocol protocol_;
   const Accesses accesses_;
+  const std::vector<std::optional<CalledWith>> entries_;  // by AutomatonId
   ComponentStore own_store_;
   ComponentStore& store_;
   std::vector<AutomatonId> roots_;

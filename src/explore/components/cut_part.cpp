@@ -30,12 +30,17 @@ CutPart::CutPart(const ComponentTable& all, AutomatonId root, PartSide side,
       number(side == PartSide::Inside ? top.location : all.outside_of(root));
   memory_ = number(all.memory_of(root));
   collect_changes();
+  if (is_called_ && all.entries_[index(root)]) {
+    entry_ = &*all.entries_[index(root)];
+  }
   collect_own();
+  const std::size_t entered = entry_ == nullptr ? SIZE_MAX : entry_->entered;
   for (const auto value :
        {static_cast<std::size_t>(network_.ticks),
         static_cast<std::size_t>(side_), std::size_t{is_called_},
         std::size_t{waits_instantly_}, std::size_t{gate_.has_value()},
-        all.limits_.states, all.limits_.inner_edges}) {
+        entered >> 32, entered & 0xffffffff, all.limits_.states,
+        all.limits_.inner_edges}) {
     put(value);
   }
 }

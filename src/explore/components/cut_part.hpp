@@ -49,6 +49,10 @@ class CutPart {
   VariableId memory() const { return memory_; }
   // What the rest may make of the status of the subtree's root.
   const std::set<std::pair<int, int>>& changes() const { return changes_; }
+  // Whether that is a status with which the subtree is ever called.
+  bool may_enter(int status) const {
+    return entry_ == nullptr || entry_->has(status);
+  }
   // By number; with the ranges that components have.
   const std::vector<Variable>& variables() const { return variables_; }
   // The part's own, in the order in which its states have them.
@@ -92,6 +96,7 @@ class CutPart {
   VariableId location_{};
   VariableId memory_{};
   std::set<std::pair<int, int>> changes_;
+  const CalledWith* entry_ = nullptr;  // where it is known
   std::vector<Variable> variables_;
   std::vector<VariableId> own_;
 };

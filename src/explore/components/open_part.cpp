@@ -334,7 +334,9 @@ bool OpenPart::explore() {
       return std::nullopt;
     };
     bool is_urgent = false;
+    const bool is_idle = rests && !part_.may_enter(call.status);
     for (Arc& arc : states_[state].arcs) {
+      if (is_idle) break;
       if (arc.label == LabelledGraph::kSilent) {
         arc.is_used = is_urgent = true;
         found(arc.target, call);
@@ -397,6 +399,7 @@ LabelledGraph OpenPart::graph() const {
       arcs.push_back({arc.label, arc.target});
     }
     if (is_quiet) arcs.push_back({kQuiet, s});
+    if (is_at_rest(states_[s].values)) arcs.push_back({kRest, s});
     if (const auto later = states_[s].later) arcs.push_back({kTime, *later});
     graph.add_state(arcs);
   }
@@ -534,7 +537,7 @@ void put_in_order(Minimal& small, const std::vector<std::uint32_t>& rank) {
 
 // By label: its place among all of the part, whatever it was found by.
 std::vector<std::uint32_t> OpenPart::ranks() const {
-  std::vector<std::uint32_t> ranks = {0, kQuiet, kTime};
+  std::vector<std::uint32_t> ranks = {0, kQuiet, kTime, kRest};
   ranks.resize(kFirstLabel + labels_.size());
   std::uint32_t next = kFirstLabel;
   for (const auto& [content, label] : label_numbers_) ranks[label] = next++;
@@ -595,7 +598,9 @@ std::optional<Component> OpenPart::drawn() {
       if (arc.label == kTime) {
         made.later[static_cast<std::size_t>(in_time(from))] = in_time(to);
       }
-      if (arc.label == kQuiet || arc.label == kTime) continue;
+      if (arc.label < kFirstLabel && arc.label != LabelledGraph::kSilent) {
+        continue;
+      }
       if (automaton.edges.size() >= limits_.inner_edges) return std::nullopt;
       Edge edge;
       edge.source = LocationId{static_cast<std::uint32_t>(from.location)};

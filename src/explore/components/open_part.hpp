@@ -56,7 +56,8 @@ class OpenPart {
 
   static constexpr std::uint32_t kQuiet = 1;  // it does nothing by itself
   static constexpr std::uint32_t kTime = 2;   // a unit of time passes
-  static constexpr std::uint32_t kFirstLabel = 3;
+  static constexpr std::uint32_t kRest = 3;   // it waits to be called
+  static constexpr std::uint32_t kFirstLabel = 4;
   static constexpr std::uint64_t kMostRead = 64;
 
   // A large component has thousands of edges, of which few begin in one place.

@@ -6,15 +6,20 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
+#include "explore/reduce/called_with.hpp"
 #include "model/automata/network.hpp"
 
 namespace btcheck {
 
-// The contexts of an automaton, its locations together with the values of the
-// two-valued locals, and where each edge leads from each.
+// The contexts of an automaton, and where each edge leads from each: its
+// locations together with the values of locals that tell where it is. These are
+// the two-valued ones, those that are only ever given constants, as the place
+// of a Sequence is, and the node's own status. Only contexts that it can come
+// to, whatever the rest of the network does, are there.
 class Contexts {
  public:
   struct Arc {
@@ -22,15 +27,15 @@ class Contexts {
     std::uint32_t to = 0;
     std::uint32_t edge = 0;  // by its place in the automaton
   };
+  static constexpr std::uint32_t kInitial = 0;
 
-  Contexts(const Network& network, const Automaton& automaton);
+  // Where so many arcs do not do, two-valued locals alone are looked at.
+  Contexts(const Network& network, const Automaton& automaton,
+           std::size_t most_arcs, const std::optional<CalledWith>& entry);
 
-  std::size_t size() const {
-    return automaton_.locations.size() << flags_.size();
-  }
-  std::uint32_t initial() const;
+  std::size_t size() const { return locations_.size(); }
   LocationId location(std::uint32_t context) const {
-    return LocationId{context >> flags_.size()};
+    return locations_[context];
   }
   const std::vector<Arc>& arcs() const { return arcs_; }
   // Calls visit(arc) for those from a context, or into it.
@@ -44,15 +49,12 @@ class Contexts {
   }
   // Whether contexts differ in the variable's value.
   bool tell_apart(VariableId variable) const {
-    return std::ranges::find(flags_, variable) != flags_.end();
+    return std::ranges::find(told_, variable) != told_.end();
   }
 
  private:
-  void add_arcs(std::uint32_t number);
-
-  const Network& network_;
-  const Automaton& automaton_;
-  std::vector<VariableId> flags_;
+  std::vector<VariableId> told_;
+  std::vector<LocationId> locations_;  // by context
   std::vector<Arc> arcs_;
   std::vector<std::vector<std::uint32_t>> arcs_from_, arcs_into_;
 };

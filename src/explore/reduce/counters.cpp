@@ -201,21 +201,10 @@ class CountsBeyond {
 
   bool may_happen() const {
     if (!first_beyond_) return false;
-    const Contexts contexts(abstract_, *automaton_);
-    std::vector<bool> reached(contexts.size(), false);
-    std::vector<std::uint32_t> open{contexts.initial()};
-    reached[contexts.initial()] = true;
-    bool happens = false;
-    while (!open.empty() && !happens) {
-      const std::uint32_t here = open.back();
-      open.pop_back();
-      contexts.for_each_arc_from(here, [&](const Contexts::Arc& arc) {
-        happens |= arc.edge >= *first_beyond_;
-        if (!reached[arc.to]) open.push_back(arc.to);
-        reached[arc.to] = true;
-      });
-    }
-    return happens;
+    const Contexts contexts(abstract_, *automaton_, 1'000'000, {});
+    return std::ranges::any_of(contexts.arcs(), [&](const auto& arc) {
+      return arc.edge >= *first_beyond_;
+    });
   }
 
  private:

@@ -10,8 +10,9 @@
 // rstatus of each child, which parent and child pass to and fro: while the
 // child has not been called only the parent can read it, and calling it leads
 // to the child's first location and back to where the parent waits. Locations
-// are told apart further by the node's two-valued locals, so that a Parallel
-// that has decided (active = 0) is not taken for one that still counts.
+// are told apart further by locals of the node: a Parallel that has decided
+// (active = 0) is not taken for one that still counts, and a Sequence that is
+// at its third child (next = 3) not for one that may yet call the first.
 #include "explore/reduce/live_variables.hpp"
 
 #include <algorithm>
@@ -391,7 +392,7 @@ class Liveness {
 
   // Forwards, until nothing is new.
   void find_values() {
-    std::vector<std::uint32_t> changed{contexts_.initial()};
+    std::vector<std::uint32_t> changed{Contexts::kInitial};
     values_[changed.front()] = first_values_;
     while (!changed.empty()) {
       ask_budget();
@@ -474,6 +475,7 @@ LiveNetwork forget_dead_values(const Network& network,
   const CallProtocol protocol(network);
   if (!protocol.holds()) return live;
   const Accesses accesses(network);
+  const auto entries = called_with(network, protocol, accesses);
   std::vector<std::vector<AutomatonId>> children(network.automata.size());
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     const auto parent = protocol.parent(AutomatonId{a});
@@ -510,7 +512,8 @@ LiveNetwork forget_dead_values(const Network& network,
     // Each word goes round all arcs: with thousands of children values are
     // better kept than looked at for minutes.
     constexpr std::size_t kMostVisits = 20'000'000;
-    const Contexts contexts(network, automaton);
+    const Contexts contexts(network, automaton, kMostVisits / words.size(),
+                            entries[a]);
     if (contexts.arcs().size() * words.size() > kMostVisits) continue;
     look_at_budget();
     const Mentions mentions(automaton);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Guards are conjunctions, and most conjuncts compare a variable with a
-// constant; that is all that is looked at.
+// Guards are conjunctions, and most conjuncts ask of one variable; that is all
+// that is looked at.
 #include "explore/state/accesses.hpp"
 
 #include <algorithm>
@@ -18,28 +18,64 @@ std::size_t start_of(std::span<const Term> terms, std::size_t last) {
   return last;
 }
 
-// Calls visit(operation, variable, value) for each conjunct `variable = value`
-// or `variable != value`, from the last to the first. Behind an `and` stands
-// nothing but conjuncts, so none is copied.
+// Calls visit(terms) for each conjunct, from the last to the first. Behind an
+// `and` stands nothing but conjuncts, so none is copied.
 template <class Visit>
-void for_each_demand(const Expression& guard, Visit visit) {
+void for_each_conjunct(const Expression& guard, Visit visit) {
   const std::span<const Term> terms = guard.terms();
   for (std::size_t end = terms.size(); end > 0;) {
-    const Term& term = terms[end - 1];
-    if (term.operation == Operation::And) {
+    if (terms[end - 1].operation == Operation::And) {
       --end;
       continue;
     }
     const std::size_t start = start_of(terms, end - 1);
-    if (end - start == 3 && is_equality(term.operation) &&
-        terms[start].operation == Operation::Variable &&
-        terms[start + 1].operation == Operation::Constant) {
-      visit(term.operation,
-            VariableId{static_cast<std::uint32_t>(terms[start].operand)},
-            int{terms[start + 1].operand});
-    }
+    visit(terms.subspan(start, end - start));
     end = start;
   }
+}
+
+// Calls visit(variable, value) for each conjunct `variable = value`.
+template <class Visit>
+void for_each_demand(const Expression& guard, Visit visit) {
+  for_each_conjunct(guard, [&](std::span<const Term> terms) {
+    if (terms.size() == 3 && terms[2].operation == Operation::Equal &&
+        terms[0].operation == Operation::Variable &&
+        terms[1].operation == Operation::Constant) {
+      visit(VariableId{static_cast<std::uint32_t>(terms[0].operand)},
+            int{terms[1].operand});
+    }
+  });
+}
+
+// What a conjunct comes to; nothing where it hangs on more than the variable.
+std::optional<std::int64_t> value_of(std::span<const Term> terms,
+                                     VariableId variable, int value) {
+  const auto is_known = [&](const Term& term) {
+    const bool is_it = static_cast<std::uint32_t>(term.operand) ==
+                       static_cast<std::uint32_t>(variable);
+    return term.operation == Operation::Variable
+               ? is_it
+               : term.operation != Operation::Status;
+  };
+  if (!std::ranges::all_of(terms, is_known)) return std::nullopt;
+  std::vector<std::int64_t> stack;
+  for (const Term& term : terms) {
+    if (term.operation == Operation::Constant) {
+      stack.push_back(term.operand);
+    } else if (term.operation == Operation::Variable) {
+      stack.push_back(value);
+    } else {
+      const std::int64_t right = stack.back();
+      stack.pop_back();
+      std::int64_t left = 0;
+      if (arity(term.operation) == 2) {
+        left = stack.back();
+        stack.pop_back();
+      }
+      stack.push_back(apply(term.operation, left, right));
+    }
+  }
+  return stack.back();
 }
 
 }  // namespace
@@ -55,8 +91,8 @@ std::optional<int> constant_value(const Assignment& assignment) {
 std::vector<std::pair<VariableId, int>> demanded_values(
     const Expression& guard) {
   std::vector<std::pair<VariableId, int>> all;
-  for_each_demand(guard, [&](Operation how, VariableId variable, int value) {
-    if (how == Operation::Equal) all.emplace_back(variable, value);
+  for_each_demand(guard, [&](VariableId variable, int value) {
+    all.emplace_back(variable, value);
   });
   std::ranges::reverse(all);
   std::ranges::stable_sort(all, {}, &std::pair<VariableId, int>::first);
@@ -70,21 +106,18 @@ std::vector<std::pair<VariableId, int>> demanded_values(
 std::optional<int> demanded_value(const Expression& guard,
                                   VariableId variable) {
   std::optional<int> demanded;
-  for_each_demand(guard, [&](Operation how, VariableId of, int value) {
-    if (how == Operation::Equal && of == variable) demanded = value;
+  for_each_demand(guard, [&](VariableId of, int value) {
+    if (of == variable) demanded = value;
   });
   return demanded;
 }
 
 bool excludes(const Expression& guard, VariableId variable, int value) {
   bool is_refused = false;
-  std::optional<int> demanded;
-  for_each_demand(guard, [&](Operation how, VariableId of, int other) {
-    if (of != variable) return;
-    if (how == Operation::Equal) demanded = other;
-    is_refused |= how == Operation::NotEqual && other == value;
+  for_each_conjunct(guard, [&](std::span<const Term> terms) {
+    is_refused = is_refused || value_of(terms, variable, value) == 0;
   });
-  return is_refused || (demanded && demanded != value);
+  return is_refused;
 }
 
 bool takes_time(const Network& network, const Edge& edge) {
