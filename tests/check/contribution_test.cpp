@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Factors against counting with sets, and that they name who is to blame.
-#include "check/questions/contribution.hpp"
+#include "check/space/contribution.hpp"
 
 #include <doctest/doctest.h>
 

@@ -161,6 +161,7 @@ std::vector<std::optional<CalledWith>> called_with(const Network& network,
     const auto& below = children[index(id)];
     if (below.empty()) continue;
     order.insert(order.end(), below.begin(), below.end());
+    if (!accesses.moves_alone(network, id)) continue;
     const Automaton& automaton = network.automaton(id);
     const Contexts contexts(network, automaton, kMostVisits / below.size(),
                             entries[index(id)]);

@@ -19,7 +19,7 @@ namespace btcheck {
 // locations together with the values of locals that tell where it is. These are
 // the two-valued ones, those that are only ever given constants, as the place
 // of a Sequence is, and the node's own status. Only contexts that it can come
-// to, whatever the rest of the network does, are there.
+// to by its own edges, whatever the rest of the network does, are there.
 class Contexts {
  public:
   struct Arc {

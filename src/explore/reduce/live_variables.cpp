@@ -484,7 +484,10 @@ LiveNetwork forget_dead_values(const Network& network,
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     ask_budget();
     const Automaton& automaton = network.automata[a];
-    if (automaton.kind != AutomatonKind::Node) continue;
+    if (automaton.kind != AutomatonKind::Node ||
+        !accesses.moves_alone(network, AutomatonId{a})) {
+      continue;
+    }
     std::vector<std::vector<Tracked>> words(1);
     int width = 0;
     const auto track = [&](VariableId variable,

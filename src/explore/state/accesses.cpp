@@ -146,6 +146,14 @@ Accesses::Accesses(const Network& network)
   }
 }
 
+bool Accesses::moves_alone(const Network& network,
+                           AutomatonId automaton) const {
+  const VariableId location = network.automaton(automaton).location;
+  return std::ranges::all_of(writers[index(location)], [&](AutomatonId writer) {
+    return writer == automaton;
+  });
+}
+
 bool Accesses::are_only_by(std::span<const AutomatonId> automata,
                            VariableId variable) const {
   const auto are_among = [&](const std::vector<AutomatonId>& users) {

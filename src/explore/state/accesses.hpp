@@ -68,6 +68,9 @@ void for_each_access(const Automaton& automaton, const Edge& edge,
 struct Accesses {
   explicit Accesses(const Network& network);
 
+  // Whether it stands where its own edges have brought it, and nobody else's.
+  // (Time moves what is outside of a part, as a component.)
+  bool moves_alone(const Network& network, AutomatonId automaton) const;
   // Whether nobody else reads or writes the variable.
   bool are_only_by(std::span<const AutomatonId> automata,
                    VariableId variable) const;

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "check/questions/contribution.hpp"
+#include "check/space/contribution.hpp"
 #include "check/space/quotient.hpp"
 #include "check/space/space.hpp"
 #include "model/tree/tree.hpp"

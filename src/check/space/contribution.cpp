@@ -3,7 +3,7 @@
 // A set of the states that differ without a part would be needed for each part.
 // HyperLogLog (Flajolet, Fusy, Gandouet, Meunier 2007) takes 4 kB: of the hash
 // values in each of 4,096 classes it keeps the longest run of leading zeros.
-#include "check/questions/contribution.hpp"
+#include "check/space/contribution.hpp"
 
 #include <algorithm>
 #include <array>
