@@ -19,7 +19,6 @@ ComponentTable::ComponentTable(const Network& network,
       accesses_(network),
       entries_(called_with(network, protocol_, accesses_)),
       store_(store == nullptr ? own_store_ : *store),
-      children_(network.automata.size()),
       timers_(network.automata.size()),
       users_(network.variables.size()) {
   for (auto& known : known_) known.resize(network.automata.size());
@@ -29,16 +28,15 @@ ComponentTable::ComponentTable(const Network& network,
       timers_[index(network.node_automaton[index(automaton.node)])].push_back(
           AutomatonId{a});
     }
-    if (const auto parent = protocol_.parent(AutomatonId{a})) {
-      children_[index(*parent)].push_back(AutomatonId{a});
-    } else if (automaton.kind == AutomatonKind::Node) {
+    const bool is_called = protocol_.parent(AutomatonId{a}).has_value();
+    if (!is_called && automaton.kind == AutomatonKind::Node) {
       roots_.push_back(AutomatonId{a});
     }
   }
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     // Post-order: what lies below has been looked at.
     std::uint32_t first = a;
-    for (const AutomatonId child : children_[a]) {
+    for (const AutomatonId child : protocol_.children(AutomatonId{a})) {
       if (index(child) < a) {
         first = std::min(first, first_inside_[index(child)]);
       }
@@ -115,7 +113,7 @@ bool ComponentTable::may_be_component(AutomatonId root) const {
       });
   if (!is_plain) return false;
   std::size_t inside = 1;
-  for (const AutomatonId child : children_[index(root)]) {
+  for (const AutomatonId child : protocol_.children(root)) {
     const VariableId gate = *network_.automaton(child).gate;
     if (index(child) > index(root) || users_[index(gate)].empty()) return false;
     inside += index(child) - first_inside_[index(child)] + 1;
@@ -143,7 +141,7 @@ std::optional<std::vector<PartMember>> ComponentTable::members(AutomatonId root,
     // What is inside is let do what it may.
     if (of(root) == nullptr) return std::nullopt;
   }
-  for (const AutomatonId child : children_[index(middle)]) {
+  for (const AutomatonId child : protocol_.children(middle)) {
     if (child == root && is_outside) continue;
     if (!add(child, PartSide::Inside)) return std::nullopt;
   }

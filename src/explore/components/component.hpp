@@ -186,7 +186,7 @@ class ComponentTable {
   const CallProtocol& protocol() const { return protocol_; }
   const std::vector<AutomatonId>& roots() const { return roots_; }
   const std::vector<AutomatonId>& children(AutomatonId id) const {
-    return children_[index(id)];
+    return protocol_.children(id);
   }
   // Null where the part cannot be one, or is too large to be. Outside of a root
   // is nothing.
@@ -276,7 +276,6 @@ class ComponentTable {
   ComponentStore own_store_;
   ComponentStore& store_;
   std::vector<AutomatonId> roots_;
-  std::vector<std::vector<AutomatonId>> children_;  // by AutomatonId
   std::vector<std::uint32_t> first_inside_;  // by AutomatonId: of its subtree
   std::vector<std::vector<AutomatonId>> timers_;  // by AutomatonId: its own
   // By VariableId: the nodes that touch it, in order; none of a variable that

@@ -17,6 +17,7 @@ bool ends_turn(const Automaton& automaton, const Edge& edge) {
 CallProtocol::CallProtocol(const Network& network)
     : gated_(network.variables.size()),
       parents_(network.automata.size()),
+      children_(network.automata.size()),
       waits_(network.automata.size()) {
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     const auto& gate = network.automata[a].gate;
@@ -48,6 +49,10 @@ CallProtocol::CallProtocol(const Network& network)
                                   waiting == leaving[target]);
       }
     }
+  }
+  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    const auto& parent = parents_[a];
+    if (parent) children_[index(*parent)].push_back(AutomatonId{a});
   }
 }
 

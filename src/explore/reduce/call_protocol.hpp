@@ -34,6 +34,10 @@ class CallProtocol {
   std::optional<AutomatonId> parent(AutomatonId automaton) const {
     return parents_[index(automaton)];
   }
+  // Ascending.
+  const std::vector<AutomatonId>& children(AutomatonId automaton) const {
+    return children_[index(automaton)];
+  }
   // Whether one of the two stands above the other, or they are the same.
   bool is_line(AutomatonId one, AutomatonId other) const {
     return is_above(one, other) || is_above(other, one);
@@ -56,6 +60,7 @@ class CallProtocol {
 
   std::vector<std::optional<AutomatonId>> gated_;    // by VariableId
   std::vector<std::optional<AutomatonId>> parents_;  // by AutomatonId
+  std::vector<std::vector<AutomatonId>> children_;   // by AutomatonId
   std::vector<std::vector<LocationId>> waits_;       // by AutomatonId
   bool holds_ = true;
 };

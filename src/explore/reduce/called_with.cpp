@@ -145,20 +145,14 @@ std::vector<std::optional<CalledWith>> called_with(const Network& network,
                                                    const Accesses& accesses) {
   std::vector<std::optional<CalledWith>> entries(network.automata.size());
   if (!protocol.holds()) return entries;
-  std::vector<std::vector<AutomatonId>> children(network.automata.size());
   std::vector<AutomatonId> order;
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
-    const auto parent = protocol.parent(AutomatonId{a});
-    if (parent) {
-      children[index(*parent)].push_back(AutomatonId{a});
-    } else {
-      order.push_back(AutomatonId{a});
-    }
+    if (!protocol.parent(AutomatonId{a})) order.push_back(AutomatonId{a});
   }
   for (std::size_t next = 0; next < order.size(); ++next) {
     ask_budget();
     const AutomatonId id = order[next];
-    const auto& below = children[index(id)];
+    const auto& below = protocol.children(id);
     if (below.empty()) continue;
     order.insert(order.end(), below.begin(), below.end());
     if (!accesses.moves_alone(network, id)) continue;

@@ -476,11 +476,6 @@ LiveNetwork forget_dead_values(const Network& network,
   if (!protocol.holds()) return live;
   const Accesses accesses(network);
   const auto entries = called_with(network, protocol, accesses);
-  std::vector<std::vector<AutomatonId>> children(network.automata.size());
-  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
-    const auto parent = protocol.parent(AutomatonId{a});
-    if (parent) children[index(*parent)].push_back(AutomatonId{a});
-  }
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     ask_budget();
     const Automaton& automaton = network.automata[a];
@@ -509,7 +504,7 @@ LiveNetwork forget_dead_values(const Network& network,
     if (!automaton.gate) {
       track(network.node_status[index(automaton.node)], std::nullopt);
     }
-    for (const AutomatonId child : children[a]) {
+    for (const AutomatonId child : protocol.children(AutomatonId{a})) {
       track(network.node_status[index(network.automaton(child).node)], child);
     }
     // Each word goes round all arcs: with thousands of children values are
