@@ -157,11 +157,13 @@ class Walk {
     return known->second;
   }
 
-  // Where it is called, its status is what the parent has made of it.
+  // Where it is called, its status is what the parent has made of it, if
+  // anybody asks.
   void add_arcs(std::uint32_t from, std::uint32_t edge,
                 std::vector<Contexts::Arc>& arcs) {
     const Key key = keys_[from];
-    if (entry_ == nullptr || index(location(from)) != 0) {
+    const bool begins = entry_ != nullptr && index(location(from)) == 0;
+    if (!begins || !live_[0][scales_.size() - 1]) {
       return add_arcs(from, key, edge, arcs);
     }
     const auto [weight, size] = scales_.back();
