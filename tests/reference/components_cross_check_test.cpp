@@ -6,8 +6,9 @@
 // Every edge of a node that stands as it is must be taken in both or in none,
 // whether what is above it is a component or not; the roots must be able to end
 // from every state in both or in none; and whatever a network of components
-// does the whole must do as well, single step by single step. Components that
-// are wrong on purpose must not pass.
+// does the whole must do as well, single step by single step. Without its dead
+// values a network of components does the same. Components that are wrong on
+// purpose must not pass.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "explore/components/composition.hpp"
+#include "explore/reduce/live_variables.hpp"
 #include "reference/effort.hpp"
 #include "reference/kept_bytes.hpp"
 #include "reference/random_tree.hpp"
@@ -29,11 +31,12 @@ constexpr int kStepsOfWalk = 60;
 
 struct Census : ReductionCensus {
   int compositions = 0;
-  int outsides = 0;            // with all above a node as one
-  int clocks = 0;              // components that change with time
-  std::uint64_t left_out = 0;  // automata
-  std::uint64_t smaller = 0;   // states fewer than in the whole
-  std::uint64_t steps = 0;     // walked in both
+  int outsides = 0;             // with all above a node as one
+  int clocks = 0;               // components that change with time
+  std::uint64_t left_out = 0;   // automata
+  std::uint64_t smaller = 0;    // states fewer than in the whole
+  std::uint64_t steps = 0;      // walked in both
+  std::uint64_t forgotten = 0;  // variables whose dead values are
 };
 
 std::vector<bool> taken_edges(const Network& network, const NaiveSpace& space) {
@@ -217,6 +220,15 @@ std::string flaw_of(const ReductionCase& each, ComponentTable& components,
                          in_whole[number] ? "" : " not");
     }
   }
+  // As it is searched: what nobody asks for is forgotten.
+  const LiveNetwork live = forget_dead_values(network, Observed(network));
+  const auto forgetful = naive_space(live.network, 4 * kMostStatesOfCase);
+  if (!forgetful) return "more states without dead values";
+  if (taken_edges(live.network, *forgetful) != here) {
+    return "other edges are taken without dead values";
+  }
+  census.forgotten +=
+      static_cast<std::uint64_t>(std::ranges::count(live.forgotten, true));
   if (!kept) {
     const CallProtocol& protocol = components.protocol();
     if (can_always(each.space, ended(whole, each.space, protocol)) !=
@@ -281,6 +293,7 @@ TEST_CASE("networks of components do what the whole does") {
   CHECK_COVERED(census.clocks > 10);
   CHECK_COVERED(census.left_out > 1000);
   CHECK_COVERED(census.smaller > 1000);
+  CHECK_COVERED(census.forgotten > 1000);
   CHECK_COVERED(kept_bytes()->found > 300);
   CHECK(kept_bytes()->refused == 0);
 }
