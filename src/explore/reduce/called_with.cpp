@@ -155,8 +155,8 @@ std::vector<std::optional<CalledWith>> called_with(const Network& network,
     const auto& below = protocol.children(id);
     if (below.empty()) continue;
     order.insert(order.end(), below.begin(), below.end());
-    if (!accesses.moves_alone(network, id)) continue;
     const Automaton& automaton = network.automaton(id);
+    if (!accesses.moves_alone(network, id)) continue;
     const Contexts contexts(network, automaton, kMostVisits / below.size(),
                             entries[index(id)]);
     if (contexts.arcs().size() > kMostVisits / below.size()) continue;

@@ -177,7 +177,7 @@ class Walk {
   void add_arcs(std::uint32_t from, Key key, std::uint32_t edge,
                 std::vector<Contexts::Arc>& arcs) {
     const std::uint32_t target = index(automaton_.edges[edge].target);
-    std::vector<Key> targets = {target};
+    targets_.assign(1, target);
     for (std::size_t i = 0; i < scales_.size(); ++i) {
       const Effect& effect = effects_[edge][i];
       const auto [weight, size] = scales_[i];
@@ -185,17 +185,16 @@ class Walk {
       if (effect.demanded && *effect.demanded != value) return;
       if (value < Key{kMostBits} && (effect.excluded >> value & 1) != 0) return;
       if (!live_[target][i]) continue;
+      const std::size_t known = targets_.size();
       const Key first = effect.is_open ? 0 : effect.given.value_or(value);
-      const Key count = effect.is_open ? size : 1;
-      std::vector<Key> longer;
-      for (const Key each : targets) {
-        for (Key v = first; v < first + count; ++v) {
-          longer.push_back(each + v * weight);
+      for (std::size_t t = 0; t < known; ++t) {
+        for (Key v = 1; effect.is_open && v < size; ++v) {
+          targets_.push_back(targets_[t] + v * weight);
         }
+        targets_[t] += first * weight;
       }
-      targets = std::move(longer);
     }
-    for (const Key each : targets) arcs.push_back({from, find(each), edge});
+    for (const Key each : targets_) arcs.push_back({from, find(each), edge});
   }
 
   const Automaton& automaton_;
@@ -206,6 +205,7 @@ class Walk {
   std::vector<Scale> scales_;
   std::vector<Key> keys_;  // by context
   std::unordered_map<Key, std::uint32_t> numbers_;
+  std::vector<Key> targets_;  // of one edge
 };
 
 // The locals whose values are told apart.

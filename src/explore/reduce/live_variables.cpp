@@ -479,7 +479,7 @@ LiveNetwork forget_dead_values(const Network& network,
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     ask_budget();
     const Automaton& automaton = network.automata[a];
-    if (automaton.kind != AutomatonKind::Node ||
+    if (automaton.kind != AutomatonKind::Node || automaton.edges.empty() ||
         !accesses.moves_alone(network, AutomatonId{a})) {
       continue;
     }
@@ -507,6 +507,7 @@ LiveNetwork forget_dead_values(const Network& network,
     for (const AutomatonId child : protocol.children(AutomatonId{a})) {
       track(network.node_status[index(network.automaton(child).node)], child);
     }
+    if (words.front().empty()) continue;
     // Each word goes round all arcs: with thousands of children values are
     // better kept than looked at for minutes.
     constexpr std::size_t kMostVisits = 20'000'000;
