@@ -19,7 +19,9 @@ using Values = std::uint64_t;
 class Status {
  public:
   Status(const Network& network, VariableId variable)
-      : variable_(variable), of_(network.variable(variable)) {}
+      : network_(network),
+        variable_(variable),
+        of_(network.variable(variable)) {}
 
   bool is_small() const { return of_.domain_size() <= kMostStatuses; }
   VariableId variable() const { return variable_; }
@@ -29,11 +31,7 @@ class Status {
     return ~Values{0} >> (kMostStatuses - of_.domain_size());
   }
   Values excluded(const Expression& guard) const {
-    Values excluded = 0;
-    for (int value = of_.min; value <= of_.max; ++value) {
-      if (excludes(guard, variable_, value)) excluded |= bit(value);
-    }
-    return excluded;
+    return excluded_values(network_, guard, variable_);
   }
   // Nothing where the edge does not write it.
   std::optional<Values> written(const Edge& edge) const {
@@ -55,6 +53,7 @@ class Status {
  private:
   Values bit(int value) const { return Values{1} << (value - of_.min); }
 
+  const Network& network_;
   VariableId variable_;
   const Variable& of_;
 };
@@ -165,9 +164,9 @@ std::vector<std::optional<CalledWith>> called_with(const Network& network,
       const Automaton& child = network.automaton(each);
       if (child.kind != AutomatonKind::Node || !child.gate) continue;
       const Status status(network, network.node_status[index(child.node)]);
-      const bool is_theirs = std::ranges::all_of(
-          accesses.writers[index(status.variable())],
-          [&](AutomatonId writer) { return writer == id || writer == each; });
+      const AutomatonId family[] = {id, each};
+      const bool is_theirs =
+          accesses.are_written_only_by(family, status.variable());
       if (!status.is_small() || !is_theirs) continue;
       entries[index(each)] = parent.entry(
           status, child, network.variable(*child.gate).initial != 0);

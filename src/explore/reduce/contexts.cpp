@@ -99,12 +99,8 @@ class Walk {
         effects[i].is_asked |= read == told[i];
       };
       for_each_read(edge.guard, ask);
-      const int end = effects[i].is_asked && of.domain_size() <= kMostBits
-                          ? of.max + 1
-                          : of.min;
-      for (int value = of.min; value < end; ++value) {
-        if (!excludes(edge.guard, told[i], value)) continue;
-        effects[i].excluded |= std::uint64_t{1} << (value - of.min);
+      if (effects[i].is_asked && of.domain_size() <= kMostBits) {
+        effects[i].excluded = excluded_values(network, edge.guard, told[i]);
       }
       for (const Assignment& update : edge.updates) {
         for_each_read(update.value, ask);

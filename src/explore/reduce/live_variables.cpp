@@ -51,7 +51,8 @@ class Tracked {
 
   Tracked(const Network& network, VariableId variable,
           std::optional<AutomatonId> child, const Observed& observed)
-      : variable_(variable),
+      : network_(network),
+        variable_(variable),
         of_(network.variable(variable)),
         child_(child ? &network.automaton(*child) : nullptr),
         child_id_(child) {
@@ -96,9 +97,8 @@ class Tracked {
     Use use;
     use.calls = calls_child(edge);
     use.tests = tests_in(guard);
-    const bool may_exclude = use.tests != 0 && !is_large();
-    for (int value = of_.min; may_exclude && value <= of_.max; ++value) {
-      if (excludes(guard, variable_, value)) use.excluded |= bit(value);
+    if (use.tests != 0 && !is_large()) {
+      use.excluded = excluded_values(network_, guard, variable_) << first_;
     }
     for (const Assignment& update : edge.updates) {
       if (!use.is_written) use.tests |= tests_in(update.value);
@@ -208,6 +208,7 @@ class Tracked {
     return Calls::Never;
   }
 
+  const Network& network_;
   VariableId variable_;
   const Variable& of_;
   const Automaton* child_;

@@ -47,35 +47,25 @@ void for_each_demand(const Expression& guard, Visit visit) {
   });
 }
 
-// What a conjunct comes to; nothing where it hangs on more than the variable.
-std::optional<std::int64_t> value_of(std::span<const Term> terms,
-                                     VariableId variable, int value) {
+// Whether a conjunct reads the variable alone, and is false with this value.
+bool is_refused(std::span<const Term> conjunct, VariableId variable,
+                int value) {
   const auto is_known = [&](const Term& term) {
-    const bool is_it = static_cast<std::uint32_t>(term.operand) ==
-                       static_cast<std::uint32_t>(variable);
+    const VariableId read{static_cast<std::uint32_t>(term.operand)};
     return term.operation == Operation::Variable
-               ? is_it
+               ? read == variable
                : term.operation != Operation::Status;
   };
-  if (!std::ranges::all_of(terms, is_known)) return std::nullopt;
-  std::vector<std::int64_t> stack;
-  for (const Term& term : terms) {
-    if (term.operation == Operation::Constant) {
-      stack.push_back(term.operand);
-    } else if (term.operation == Operation::Variable) {
-      stack.push_back(value);
-    } else {
-      const std::int64_t right = stack.back();
-      stack.pop_back();
-      std::int64_t left = 0;
-      if (arity(term.operation) == 2) {
-        left = stack.back();
-        stack.pop_back();
-      }
-      stack.push_back(apply(term.operation, left, right));
-    }
-  }
-  return stack.back();
+  return std::ranges::all_of(conjunct, is_known) &&
+         value_of(conjunct, [&](const Term&) { return std::int64_t{value}; }) ==
+             0;
+}
+
+bool are_among(std::span<const AutomatonId> automata,
+               const std::vector<AutomatonId>& users) {
+  return std::ranges::all_of(users, [&](AutomatonId user) {
+    return std::ranges::find(automata, user) != automata.end();
+  });
 }
 
 }  // namespace
@@ -113,11 +103,22 @@ std::optional<int> demanded_value(const Expression& guard,
 }
 
 bool excludes(const Expression& guard, VariableId variable, int value) {
-  bool is_refused = false;
-  for_each_conjunct(guard, [&](std::span<const Term> terms) {
-    is_refused = is_refused || value_of(terms, variable, value) == 0;
+  bool is_out = false;
+  for_each_conjunct(guard, [&](std::span<const Term> conjunct) {
+    is_out = is_out || is_refused(conjunct, variable, value);
   });
-  return is_refused;
+  return is_out;
+}
+
+std::uint64_t excluded_values(const Network& network, const Expression& guard,
+                              VariableId variable) {
+  const Variable& of = network.variable(variable);
+  std::uint64_t excluded = 0;
+  for (int value = of.min; value <= of.max; ++value) {
+    if (!excludes(guard, variable, value)) continue;
+    excluded |= std::uint64_t{1} << (value - of.min);
+  }
+  return excluded;
 }
 
 bool takes_time(const Network& network, const Edge& edge) {
@@ -148,22 +149,19 @@ Accesses::Accesses(const Network& network)
 
 bool Accesses::moves_alone(const Network& network,
                            AutomatonId automaton) const {
-  const VariableId location = network.automaton(automaton).location;
-  return std::ranges::all_of(writers[index(location)], [&](AutomatonId writer) {
-    return writer == automaton;
-  });
+  const AutomatonId writer[] = {automaton};
+  return are_written_only_by(writer, network.automaton(automaton).location);
 }
 
 bool Accesses::are_only_by(std::span<const AutomatonId> automata,
                            VariableId variable) const {
-  const auto are_among = [&](const std::vector<AutomatonId>& users) {
-    return std::all_of(users.begin(), users.end(), [&](AutomatonId user) {
-      return std::find(automata.begin(), automata.end(), user) !=
-             automata.end();
-    });
-  };
-  return are_among(readers[index(variable)]) &&
-         are_among(writers[index(variable)]);
+  return are_among(automata, readers[index(variable)]) &&
+         are_written_only_by(automata, variable);
+}
+
+bool Accesses::are_written_only_by(std::span<const AutomatonId> automata,
+                                   VariableId variable) const {
+  return are_among(automata, writers[index(variable)]);
 }
 
 }  // namespace btcheck

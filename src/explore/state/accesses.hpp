@@ -24,6 +24,10 @@ std::optional<int> demanded_value(const Expression& guard, VariableId variable);
 
 // Whether a guard rules this value of a variable out.
 bool excludes(const Expression& guard, VariableId variable, int value);
+// All that it rules out, as bits, the lowest value first; of a variable with no
+// more than 64 values.
+std::uint64_t excluded_values(const Network& network, const Expression& guard,
+                              VariableId variable);
 
 // Whether time must pass between coming to the edge's source and taking it.
 bool takes_time(const Network& network, const Edge& edge);
@@ -74,6 +78,9 @@ struct Accesses {
   // Whether nobody else reads or writes the variable.
   bool are_only_by(std::span<const AutomatonId> automata,
                    VariableId variable) const;
+  // Whether nobody else writes it.
+  bool are_written_only_by(std::span<const AutomatonId> automata,
+                           VariableId variable) const;
 
   std::vector<std::vector<AutomatonId>> readers;
   std::vector<std::vector<AutomatonId>> writers;

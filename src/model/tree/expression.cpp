@@ -180,9 +180,13 @@ Expression Expression::binary(Operation operation, Expression left,
 
 std::int64_t Expression::evaluate(
     const std::function<std::int64_t(const Term&)>& read) const {
-  if (is_true()) return 1;
+  return is_true() ? 1 : value_of(terms_, read);
+}
+
+std::int64_t value_of(std::span<const Term> terms,
+                      const std::function<std::int64_t(const Term&)>& read) {
   boost::container::small_vector<std::int64_t, 16> stack;
-  for (const Term& term : terms_) {
+  for (const Term& term : terms) {
     if (term.operation == Operation::Constant) {
       stack.push_back(term.operand);
     } else if (is_leaf_term(term)) {

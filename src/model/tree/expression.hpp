@@ -110,6 +110,10 @@ class Expression {
   std::vector<Term> terms_;
 };
 
+// The value of terms that are an expression or a part of one, likewise.
+std::int64_t value_of(std::span<const Term> terms,
+                      const std::function<std::int64_t(const Term&)>& read);
+
 // "1.5" for 15 with one decimal.
 std::string decimal_text(std::int64_t value, int decimals);
 // 10^exponent, at most 10^18.
