@@ -441,6 +441,10 @@ class Hub {
     if (!has_thrown) return;
     {
       const Hold hold(*this);
+#if BTCHECK_ENGINE == 3
+      // A leaf that is running throws before anything is heard of the tick.
+      if (!is_in_tick_) begin_tick();
+#endif
       leave_tick();
     }
     settle();

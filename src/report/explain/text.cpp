@@ -360,6 +360,11 @@ std::string suspect_text(const LogMoments& moments, const Suspect& suspect) {
   const std::string when = at_text(moments, suspect.at);
   const bool lasts = has(suspect, FailsOn);
   const auto from = [&] { return from_text(moments, suspect.at.front()); };
+  const auto was = [&](std::size_t at, Happening what) {
+    return moments.at(suspect.at[at]).what == what;
+  };
+  const bool has_run = suspect.at.size() == 2 && was(0, Happening::Running);
+  const bool is_halted = has_run && was(1, Happening::Halted);
   switch (suspect.at.empty() ? WritesOther : kind) {
     case Fails:
       return suspect.at.size() == 1
@@ -379,13 +384,18 @@ std::string suspect_text(const LogMoments& moments, const Suspect& suspect) {
       return fmt::format("fails for ever from {} on: {}", from(), when);
     case NeverEnds:
       return fmt::format(
-          "never ends{}{}: it runs since {}",
+          "never ends{}{}: it {}",
           has(suspect, EndsLate) ? ", or ends late" : "",
-          has(suspect, Throws) ? ", or has thrown an exception" : "", from());
+          has(suspect, Throws) ? ", or has thrown an exception" : "",
+          is_halted ? fmt::format("ran since {} and was halted {}", from(),
+                                  at_text(moments, suspect.at.back()))
+                    : fmt::format("runs since {}", from()));
     case Throws:
       return fmt::format("throws an exception {}", when);
     case EndsLate:
-      return fmt::format("ends late, {}", when);
+      return has_run ? fmt::format("ends late, {}: it ran since {}",
+                                   at_text(moments, suspect.at.back()), from())
+                     : fmt::format("ends late, {}", when);
     default:
       break;
   }

@@ -305,14 +305,18 @@ class Observer {
            std::vector<Change>& changes) const {
     if (step.edge == kTimeStep) return;
     const Told& told = by_edge_[step.edge];
+    const bool runs_first = told.begins && begins(told.node, statuses) &&
+                            !may_skip_beginning(told.node);
     see_changes(told, state, statuses, changes);
     if (answers_.empty() || !answers_[index(told.node)]) return;
     const auto answer = answer_of(told.role);
     if (!answer) return;
-    // The engine sets the status of a node that has answered.
+    // The engine sets the status of a node that has answered; unless it runs
+    // already, as it does first of all.
     const Change own{{told.node, *answer}, false, true};
     const auto place = std::ranges::find(changes, own.event, &Change::event);
-    changes.insert(place, own);
+    const bool is_set = runs_first && *answer == LogStatus::Running;
+    changes.insert(is_set ? changes.end() : place, own);
   }
 
  private:
@@ -461,13 +465,21 @@ class Observer {
                nullptr;
   }
 
+  // Where it sets RUNNING, if it does: whether that changes the status.
+  bool begins(NodeId node, std::span<const Word> statuses) const {
+    const LogStatus before = status(statuses, node);
+    if (before == LogStatus::Running) return false;
+    return !is_from_idle(sets_running_of(tree_.node(node))) ||
+           before == LogStatus::Idle;
+  }
+  bool may_skip_beginning(NodeId node) const {
+    return sets_running_of(tree_.node(node)) == SetsRunning::AsProgrammed;
+  }
+
   void begin(NodeId node, std::span<Word> statuses,
              std::vector<Change>& changes) const {
-    const LogStatus before = status(statuses, node);
-    const SetsRunning when = sets_running_of(tree_.node(node));
-    const bool is_optional = when == SetsRunning::AsProgrammed;
-    if (before == LogStatus::Running) return;
-    if (is_from_idle(when) && before != LogStatus::Idle) return;
+    if (!begins(node, statuses)) return;
+    const bool is_optional = may_skip_beginning(node);
     if (!is_optional) put(statuses, node, LogStatus::Running);
     tell(node, LogStatus::Running, changes, is_optional);
   }
@@ -746,9 +758,10 @@ class Follower {
 // a record that contradicts an earlier one ends them.
 class WantedEvents {
  public:
-  WantedEvents(const BehaviorLog& log, const LoggedNodes& nodes,
-               std::optional<int> until, Conformance& found)
-      : log_(log), nodes_(nodes), until_(until), found_(found) {}
+  WantedEvents(const BehaviorTree& tree, const BehaviorLog& log,
+               const LoggedNodes& nodes, std::optional<int> until,
+               Conformance& found)
+      : tree_(tree), log_(log), nodes_(nodes), until_(until), found_(found) {}
 
   std::vector<Wanted> all(const LogReading& reading) {
     if (log_.marks) {
@@ -807,10 +820,19 @@ class WantedEvents {
       return wanted.event == event && wanted.tick == tick_ &&
              wanted.is_answer == is_answer;
     };
-    const bool has_set = is_one(1, false) && !is_one(2, true);
+    // That it began to run stands in front of its answer for another reason.
+    const bool has_begun = event.status == LogStatus::Running &&
+                           may_begin_before_its_answer(event.node);
+    const bool has_set = !has_begun && is_one(1, false) && !is_one(2, true);
     wanted_.insert(
         wanted_.end() - (has_set ? 1 : 0),
         {event, std::min(record_, log_.transitions.size() - 1), tick_, true});
+  }
+
+  bool may_begin_before_its_answer(NodeId node) const {
+    const SetsRunning when =
+        sets_running_in(tree_.node(node).type, tree_.profile);
+    return when != SetsRunning::Never && when != SetsRunning::AsProgrammed;
   }
 
   void take_record(std::int64_t tick) {
@@ -836,6 +858,7 @@ class WantedEvents {
     wanted_.push_back({{nodes_.node(record.uid), status}, record_, tick});
   }
 
+  const BehaviorTree& tree_;
   const BehaviorLog& log_;
   const LoggedNodes& nodes_;
   const std::optional<int> until_;
@@ -854,7 +877,7 @@ Conformance conform(const BehaviorTree& tree, const CompiledNetwork& system,
                     const Limits& limits, std::optional<int> until,
                     const LogReading& reading) {
   Conformance found;
-  WantedEvents events(log, nodes, until, found);
+  WantedEvents events(tree, log, nodes, until, found);
   const std::vector<Wanted> wanted = events.all(reading);
   const auto contradicted = found.refused;
   found.refused.reset();

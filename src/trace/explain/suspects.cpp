@@ -34,6 +34,9 @@ class Search {
     }
     found_.refused_in = healthy->tick;
     found_.refused = refused_event(*healthy);
+    // A log without marks may have but one tick.
+    records_before_refusal_ =
+        *healthy->refused + (healthy->refused_answer ? 0 : 1);
     look_at_single();
     if (found_.single.empty() && found_.stopped == StopReason::None) {
       look_at_several();
@@ -164,6 +167,7 @@ class Search {
     const auto& all = log_.moments.all();
     std::size_t at = 0;
     while (at < all.size() && !(all[at].tick >= found_.refused_in &&
+                                all[at].records >= records_before_refusal_ &&
                                 all[at].node == found_.refused->node)) {
       ++at;
     }
@@ -311,7 +315,13 @@ class Search {
         is_possible(leaf, FaultKind::Throws)) {
       faults.push_back({leaf, {FaultKind::Throws, 0}});
     }
-    found_.single.push_back(suspect(leaf, std::move(faults)));
+    // A leaf is told once: one that throws may as well never end.
+    const auto known = std::ranges::find(found_.single, leaf, &Suspect::leaf);
+    if (known != found_.single.end()) {
+      *known = suspect(leaf, std::move(faults));
+    } else {
+      found_.single.push_back(suspect(leaf, std::move(faults)));
+    }
   }
 
   // The tree can have written it with all leaves working.
@@ -319,7 +329,7 @@ class Search {
     switch (log_.moments.last().outcome) {
       case Outcome::Exception:
         look_at_exception(states);
-        break;
+        return;
       case Outcome::Running:
         look_at_running(states);
         break;
@@ -330,6 +340,63 @@ class Search {
       case Outcome::Nothing:
         break;
     }
+    if (found_.single.empty()) look_at_slowest();
+  }
+
+  // From where a leaf began to run to what ended that; nothing of one that was
+  // asked within one tick alone.
+  struct Span {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    std::int64_t length = 0;  // ticks, or microseconds where these are unknown
+  };
+  Span longest_of(NodeId leaf) const {
+    Span longest;
+    Span span;
+    bool runs = false;
+    for (const std::size_t each : moments(leaf)) {
+      const Moment& moment = log_.moments.at(each);
+      if (moment.what == Happening::Asked) continue;
+      const bool goes_on = moment.what == Happening::Running;
+      if (!runs && goes_on) span.begin = each;
+      if (runs) {
+        const Moment& first = log_.moments.at(span.begin);
+        span.end = each;
+        span.length = log_.moments.knows_ticks() ? moment.tick - first.tick
+                                                 : moment.time - first.time;
+        if (span.length > longest.length) longest = span;
+      }
+      runs = goes_on;
+    }
+    return longest;
+  }
+
+  // Nothing else is wrong with it: the leaf that has run longest.
+  void look_at_slowest() {
+    std::optional<NodeId> slowest;
+    Span longest;
+    for (std::uint32_t n = 0; n < tree_.tree.nodes.size(); ++n) {
+      const NodeId leaf{n};
+      if (!is_leaf(tree_.tree.nodes[n].type) || !is_asked(leaf)) continue;
+      const Span span = longest_of(leaf);
+      if (span.length <= longest.length) continue;
+      longest = span;
+      slowest = leaf;
+    }
+    if (!slowest) return;
+    std::vector<InjectedFault> faults;
+    const Happening end = log_.moments.at(longest.end).what;
+    const bool is_ended =
+        end == Happening::Success || end == Happening::Failure;
+    const auto add = [&](FaultKind kind) {
+      if (is_possible(*slowest, kind)) faults.push_back({*slowest, {kind, 0}});
+    };
+    if (!is_ended) add(FaultKind::NeverEnds);
+    add(FaultKind::EndsLate);
+    if (faults.empty()) return;
+    Suspect made = suspect(*slowest, std::move(faults));
+    made.at = {longest.begin, longest.end};
+    found_.single.push_back(std::move(made));
   }
 
   void look_at_next(const std::vector<StateVector>& states,
@@ -390,6 +457,7 @@ class Search {
   const std::vector<Cause>& causes_;
   const Limits& limits_;
   std::vector<InjectedFault> possible_;
+  std::size_t records_before_refusal_ = 0;
   Suspects found_;
 };
 

@@ -23,7 +23,9 @@ namespace btcheck {
 struct Suspect {
   NodeId leaf{};
   std::vector<InjectedFault> faults;
-  std::vector<std::size_t> at;  // moments in which it did what it should not
+  // Moments in which it did what it should not; of one that only ran long, when
+  // that began and ended.
+  std::vector<std::size_t> at;
   std::size_t answers = 0;      // that it gave in all
 };
 
