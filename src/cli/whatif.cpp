@@ -198,8 +198,7 @@ void tell_too_large(const Options& options, const std::string& parts) {
                    help)});
 }
 
-// Whether its parts are told instead, one after the other: as text, each as a
-// mission of its own.
+// Whether its parts are told instead, one after the other, as text.
 bool tells_parts(const Options& options, const WhatIfReport& report) {
   const FaultPlan& plan = options.faults;
   const bool is_text = std::ranges::all_of(plan.outputs, [](const auto& each) {
@@ -217,7 +216,7 @@ struct OneTree {
   std::set<std::string> parts = {};
 };
 
-OneTree told_of(const Options& asked) {
+OneTree told_of(const Options& asked, bool own_leaves = false) {
   Options options = asked;
   const std::string obstacle = obstacle_before(options);
   if (!obstacle.empty()) {
@@ -234,15 +233,20 @@ OneTree told_of(const Options& asked) {
     if (!before) return {};
   }
   auto input = what_if_input(inputs->tree, inputs->properties);
-  show(options, input.diagnostics);
+  if (!own_leaves) show(options, input.diagnostics);
   if (!input.value) return {};
   const auto below = nodes_of_only(options, input.value->tree);
   if (!below) return {};
   options.faults.choices.below = *below;
   Watch watch(options);
   const TickSemantics ticks = options.ticks.value_or(TickSemantics::Root);
-  const WhatIfOptions how{options.faults.choices, options.faults.order, ticks,
-                          watch.limits, threads_to_use(options)};
+  const WhatIfOptions how{
+      options.faults.choices,
+      options.faults.order,
+      own_leaves ? own_nodes(input.value->tree) : std::vector<bool>(),
+      ticks,
+      watch.limits,
+      threads_to_use(options)};
   auto result = what_if(*input.value, how);
   watch.monitor.clear();
   // What is known is told, however long that takes.
@@ -269,9 +273,11 @@ ExitCode run_whatif(const Options& options) {
   const auto [code, parts] = told_of(options);
   if (parts.empty()) return code;
   print(
-      "\nIts parts instead, each as a mission of its own, whatever calls "
-      "it:\n");
-  ExitCode worst = code;
+      "\nIts trees instead, one by one. The main tree first: its subtrees are "
+      "gone\nthrough and seen from outside, so what happens below them tells "
+      "nobody of a\nfault. Then each of these as a mission of its own, "
+      "whatever calls it.\n\n--- the main tree ---\n");
+  ExitCode worst = worst_of(code, told_of(options, true).code);
   for (const std::string& part : parts) {
     Options one = options;
     one.main_tree = part;

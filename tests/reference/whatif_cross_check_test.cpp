@@ -285,6 +285,60 @@ std::string silence_difference(const RandomMission& mission,
   return "";
 }
 
+// What stands below some node is not heard: the same rows of all others, but
+// that fewer may notice.
+std::string unheard_difference(const RandomMission& mission, Counts& counts) {
+  const BehaviorTree& tree = mission.input.tree;
+  const auto whole = what_if(mission.input, options(1));
+  if (!whole.value) return "it is refused";
+  for (std::uint32_t top = 1; top < tree.nodes.size(); ++top) {
+    if (is_leaf(tree.nodes[top].type)) continue;
+    WhatIfOptions how = options(1);
+    how.heard.resize(tree.nodes.size(), true);
+    for (std::uint32_t n = top + 1; n < tree.nodes.size(); ++n) {
+      const NodeId above = tree.nodes[n].parent;
+      how.heard[n] = tree.nodes[n].is_root() ||
+                     (index(above) != top && how.heard[index(above)]);
+    }
+    const auto part = what_if(mission.input, how);
+    if (!part.value) return "it is refused";
+    const auto at = [&] { return fmt::format("below {}, ", top); };
+    if (word(part.value->healthy) != word(whole.value->healthy)) {
+      return at() + fmt::format("without faults: {}\n  whole {}",
+                                word(part.value->healthy),
+                                word(whole.value->healthy));
+    }
+    if (!part.value->error.empty()) return at() + part.value->error;
+    std::size_t expected = 0;
+    for (const FaultRow& row : whole.value->rows) {
+      if (!how.heard[index(row.faults[0].leaf)]) continue;
+      ++expected;
+      const auto same =
+          std::ranges::find(part.value->rows, row.faults, &FaultRow::faults);
+      if (same == part.value->rows.end()) {
+        return at() + told(tree, row.faults) + "is missing";
+      }
+      std::vector<bool> asked = row.asked;
+      for (std::size_t n = 0; n < asked.size(); ++n) {
+        asked[n] = asked[n] && how.heard[n];
+      }
+      const bool may_differ =
+          same->harm == Harm::Silent || row.harm == Harm::LeftOn;
+      if (word(row.effect) != word(same->effect) ||
+          asked_text(tree, asked) != asked_text(tree, same->asked) ||
+          (row.harm != same->harm && !may_differ)) {
+        return at() + fmt::format("{}: {}, {}\n  whole {}, {}",
+                                  told(tree, row.faults),
+                                  facts_of(same->harm).word, word(same->effect),
+                                  facts_of(row.harm).word, word(row.effect));
+      }
+      ++counts[same->harm];
+    }
+    if (part.value->rows.size() != expected) return at() + "too many rows";
+  }
+  return "";
+}
+
 // Small, and with no timer of an hour.
 bool is_small(const BehaviorTree& tree) {
   return tree.nodes.size() <= 10 &&
@@ -336,6 +390,27 @@ TEST_CASE("so it is in .btf trees, with what leaves write") {
   for (const auto& [harm, count] : counts) compared += count;
   MESSAGE(compared << " rows");
   CHECK_COVERED(compared > 300);
+}
+
+TEST_CASE("a part that is seen from outside leaves the rows of all others") {
+  Counts counts;
+  for (auto* draw : {mission, btf_mission}) {
+    compare(
+        seed_or(7), by_effort<std::uint64_t>(100, 2000),
+        [&](const RandomMission& drawn) {
+          return unheard_difference(drawn, counts);
+        },
+        draw);
+  }
+  std::string text;
+  for (const auto& [harm, count] : counts) {
+    text += fmt::format(" {} {}", facts_of(harm).word, count);
+  }
+  MESSAGE("rows:" << text);
+  for (const Harm harm : {Harm::Silent, Harm::NeverEnds, Harm::Throws,
+                          Harm::Fails, Harm::MayFail, Harm::Survives}) {
+    CHECK_COVERED(counts[harm] > 5);
+  }
 }
 
 TEST_CASE("cut sets are those of every pair") {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "explore/components/composition.hpp"
 #include "explore/state/spent.hpp"
 #include "model/sampling.hpp"
 #include "model/tree/leaf_fault.hpp"
@@ -19,9 +20,10 @@ namespace {
 // They are numbered in so many bits.
 constexpr std::uint32_t kMostSequences = 0x1fffffff;
 
-// What is told of a state: the ends of roots, faults, and who runs there.
+// What is told of a state: the ends of roots, faults, and who of these runs
+// there.
 Observed told_of(const BehaviorTree& tree, const Network& network,
-                 bool with_running) {
+                 const Heard* heard, bool with_running) {
   Observed told(network);
   for (const NodeId root : tree.roots) {
     const Automaton& automaton = network.automaton(root);
@@ -31,6 +33,7 @@ Observed told_of(const BehaviorTree& tree, const Network& network,
     }
   }
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    if (heard != nullptr && !heard->nodes[n]) continue;
     if (const auto phase = fault_phase(network, NodeId{n})) told.add(*phase);
     if (!with_running || !is_leaf(tree.nodes[n].type)) continue;
     told.add(equals(network.node_status[n], NodeStatus::Running));
@@ -80,29 +83,69 @@ std::optional<VariableId> fault_phase(const Network& network, NodeId leaf) {
   return local_of(network, leaf, LocalRole::Fault);
 }
 
+struct AnswerGraph::Parts {
+  Parts(const Network& network, const Heard& heard)
+      : components(network, std::vector<bool>(network.variables.size(), false),
+                   {}, heard.known),
+        composition(components, standing(network, heard), true) {}
+
+  static std::vector<bool> standing(const Network& network,
+                                    const Heard& heard) {
+    std::vector<bool> stands(network.automata.size(), false);
+    for (std::uint32_t n = 0; n < heard.nodes.size(); ++n) {
+      if (heard.nodes[n]) stands[index(network.node_automaton[n])] = true;
+    }
+    return stands;
+  }
+
+  ComponentTable components;
+  Composition composition;
+};
+
 AnswerGraph::AnswerGraph(const BehaviorTree& tree, const Network& network,
-                         const Limits& limits, Reduction reduction)
+                         const Limits& limits, Reduction reduction,
+                         const Heard* heard)
     : tree_(tree),
+      heard_(heard),
       system_(network),
-      searched_(system_, told_of(tree, network, false),
-                told_of(tree, network, true), reduction),
+      parts_(heard == nullptr ? nullptr
+                              : std::make_unique<Parts>(network, *heard)),
+      searched_(
+          parts_ == nullptr
+              ? SearchedNetwork(system_, told_of(tree, network, nullptr, false),
+                                told_of(tree, network, nullptr, true),
+                                reduction)
+              : SearchedNetwork(
+                    system_, parts_->composition,
+                    told_of(tree, parts_->composition.network(), heard, false),
+                    told_of(tree, parts_->composition.network(), heard, true))),
       store_(searched_.system().word_count()) {
-  event_of_edge_.resize(network.edge_count());
-  for (std::uint32_t e = 0; e < event_of_edge_.size(); ++e) {
-    const auto event = event_of(network, e);
-    if (!event) continue;
+  const Network& stands = searched_.system().network().network();
+  event_of_edge_.resize(stands.edge_count());
+  for (const Automaton& automaton : stands.automata) {
+    if (automaton.kind != AutomatonKind::Node || !is_heard(automaton.node)) {
+      continue;
+    }
     // Of inner nodes that they are asked says nothing.
-    const Node& node = tree.node(event->node());
+    const Node& node = tree.node(automaton.node);
     const bool is_inner = !node.is_root() && !is_leaf(node.type);
-    if (event->what() == Happening::Asked && is_inner) continue;
-    event_of_edge_[e] = event;
+    for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
+      const std::uint32_t edge = automaton.first_edge + e;
+      const auto event = event_of(stands, edge);
+      if (!event) continue;
+      if (event->what() == Happening::Asked && is_inner) continue;
+      event_of_edge_[edge] = event;
+    }
   }
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
-    const auto phase = fault_phase(network, NodeId{n});
+    const auto phase =
+        is_heard(NodeId{n}) ? fault_phase(network, NodeId{n}) : std::nullopt;
     if (phase) faults_.push_back({NodeId{n}, *phase});
   }
   search(limits);
 }
+
+AnswerGraph::~AnswerGraph() = default;
 
 void AnswerGraph::search(const Limits& limits) {
   const ReducedNetwork& system = searched_.system();
@@ -263,7 +306,7 @@ std::vector<NodeId> AnswerGraph::running(std::uint32_t state) const {
   store_.load(StateId{state}, words);
   std::vector<NodeId> found;
   for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
-    if (!is_leaf(tree_.nodes[n].type)) continue;
+    if (!is_leaf(tree_.nodes[n].type) || !is_heard(NodeId{n})) continue;
     const auto status = static_cast<NodeStatus>(
         system.value(words, system.network().node_status[n]));
     if (status == NodeStatus::Running) found.push_back(NodeId{n});

@@ -7,6 +7,7 @@
 #include <boost/container_hash/hash.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,7 @@
 
 #include "check/bind/verdict.hpp"
 #include "check/search/searched_network.hpp"
+#include "explore/components/component_store.hpp"
 #include "explore/state/limits.hpp"
 #include "explore/state/step.hpp"
 #include "explore/store/state_store.hpp"
@@ -70,6 +72,13 @@ inline bool has_ended(Ending ending) {
   return ending == Ending::Success || ending == Ending::Failure;
 }
 
+// Nodes that are listened to while all others stand as components: runs of all
+// of the network that differ in what is heard are all there.
+struct Heard {
+  std::vector<bool> nodes;          // by NodeId; all above one are as well
+  ComponentStore* known = nullptr;  // of components
+};
+
 class AnswerGraph {
  public:
   struct Arc {
@@ -83,9 +92,14 @@ class AnswerGraph {
     std::uint32_t begins_with_event : 1 = 1;
   };
 
-  // Searches at once. Tree and network must outlive it.
+  // Searches at once. Tree and network must outlive it. `heard`: null for all
+  // nodes.
   AnswerGraph(const BehaviorTree& tree, const Network& network,
-              const Limits& limits, Reduction reduction = Reduction::Full);
+              const Limits& limits, Reduction reduction = Reduction::Full,
+              const Heard* heard = nullptr);
+  ~AnswerGraph();
+  AnswerGraph(const AnswerGraph&) = delete;
+  AnswerGraph& operator=(const AnswerGraph&) = delete;
 
   StopReason stopped() const { return stopped_; }
   const SearchProgress& progress() const { return progress_; }
@@ -105,7 +119,7 @@ class AnswerGraph {
   bool has_struck(std::uint32_t state) const { return struck_[state]; }
   // From there some run leads to an end of the mission, or to an exception.
   const std::vector<bool>& can_end() const { return can_end_; }
-  // Leaves that run in a state that ends the mission.
+  // Leaves that run in a state that ends the mission, of those that are heard.
   std::vector<NodeId> running(std::uint32_t state) const;
 
   // The numbers of the arcs on a shortest way to a state.
@@ -129,8 +143,15 @@ class AnswerGraph {
   void measure(std::uint32_t expanded);
   void close();
 
+  struct Parts;
+  bool is_heard(NodeId node) const {
+    return heard_ == nullptr || heard_->nodes[index(node)];
+  }
+
   const BehaviorTree& tree_;
+  const Heard* heard_;
   CompiledNetwork system_;
+  const std::unique_ptr<Parts> parts_;  // null: all stand as they are
   SearchedNetwork searched_;
   StateStore store_;
   std::vector<std::uint32_t> reached_by_;  // by state: an arc

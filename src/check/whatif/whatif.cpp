@@ -80,6 +80,19 @@ int tick_of(const BehaviorTree& tree, const std::vector<NodeEvent>& run,
   return ticks;
 }
 
+// Of these faults, and of what is told of leaves, what concerns such nodes.
+void keep_heard(const std::vector<bool>& heard, PossibleFaults& possible) {
+  const auto is_below = [&](NodeId leaf) { return !heard[index(leaf)]; };
+  std::erase_if(possible.faults,
+                [&](const InjectedFault& each) { return is_below(each.leaf); });
+  std::erase_if(possible.guessed, is_below);
+  for (OmittedFaults& each : possible.left_out) {
+    std::erase_if(each.leaves, is_below);
+  }
+  std::erase_if(possible.left_out,
+                [](const OmittedFaults& each) { return each.leaves.empty(); });
+}
+
 class Searcher {
  public:
   Searcher(const WhatIfInput& input, const WhatIfOptions& options,
@@ -92,6 +105,7 @@ class Searcher {
     result.rules = input.rules;
     limits_ = options.limits;
     limits_.monitor = &monitor_;
+    heard_ = {options.heard, known_.get()};
   }
 
   // What is so without faults; errors are those of the rules.
@@ -101,8 +115,11 @@ class Searcher {
     auto network = lower_regions(healthy_tree_, input_.source, options_.ticks);
     if (!network.value) return std::move(network.diagnostics);
     healthy_network_ = std::move(*network.value);
-    healthy_.emplace(healthy_tree_, healthy_network_, limits_);
+    healthy_.emplace(healthy_tree_, healthy_network_, limits_, Reduction::Full,
+                     heard());
     pairs_ = on_and_off(tree_);
+    std::erase_if(pairs_,
+                  [&](const OnOff& pair) { return !can_be_told(pair); });
     Shown shown;
     result_.healthy = effect_of(*healthy_, pairs_, nullptr, shown);
     result_.stopped = result_.healthy.stopped;
@@ -133,7 +150,8 @@ class Searcher {
         with_faults(tree_, row.faults, options_.choices.others);
     const auto network = lower_regions(tree, input_.source, options_.ticks);
     if (!network.value) return row;
-    const AnswerGraph graph(tree, *network.value, limits_);
+    const AnswerGraph graph(tree, *network.value, limits_, Reduction::Full,
+                            heard());
     monitor_.ended(graph.progress());
     Shown shown;
     row.effect = effect_of(graph, pairs_, &result_.healthy, shown);
@@ -211,6 +229,18 @@ class Searcher {
       monitor_.stop(none.effect.stopped);
       return none;
     }
+  }
+
+  const Heard* heard() const {
+    return heard_.nodes.empty() ? nullptr : &heard_;
+  }
+  // What it ends by may happen unheard.
+  bool can_be_told(const OnOff& pair) const {
+    const auto is_heard = [this](NodeId leaf) {
+      return heard_.nodes[index(leaf)];
+    };
+    return heard() == nullptr ||
+           (is_heard(pair.on) && std::ranges::all_of(pair.off, is_heard));
   }
 
   bool is_whole() const { return result_.healthy.stopped == StopReason::None; }
@@ -333,6 +363,8 @@ class Searcher {
   SharedMonitor monitor_;
   Limits limits_;
   WhatIf& result_;
+  const std::shared_ptr<ComponentStore> known_ = ComponentStore::of_program();
+  Heard heard_;
 
   BehaviorTree healthy_tree_;
   Network healthy_network_;
@@ -414,11 +446,22 @@ Result<WhatIfInput> what_if_input(const TreeInput& tree,
   return result;
 }
 
+std::vector<bool> own_nodes(const BehaviorTree& tree) {
+  std::vector<bool> own(tree.nodes.size(), true);
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    if (tree.nodes[n].is_root()) continue;
+    const NodeId above = tree.nodes[n].parent;
+    own[n] = own[index(above)] && tree.node(above).type != NodeType::SubTree;
+  }
+  return own;
+}
+
 Result<WhatIf> what_if(const WhatIfInput& input, const WhatIfOptions& options) {
   WhatIf result;
   result.choices = options.choices;
   result.order = options.order;
   result.possible = possible_faults(input.tree, options.choices);
+  if (!options.heard.empty()) keep_heard(options.heard, result.possible);
   Searcher searcher(input, options, result);
   auto found = searcher.look_at_healthy();
   if (has_error(found)) return {std::nullopt, std::move(found)};

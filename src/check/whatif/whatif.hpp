@@ -168,6 +168,10 @@ struct WhatIf {
 struct WhatIfOptions {
   FaultChoices choices;
   int order = 1;  // 2: pairs as well
+  // By NodeId: whose answers are listened to, and which leaves have faults; all
+  // above one have to be as well. What stands below is gone through, and seen
+  // from outside. Empty: all.
+  std::vector<bool> heard = {};
   TickSemantics ticks = TickSemantics::Root;
   Limits limits;
   unsigned threads = 1;
@@ -183,6 +187,10 @@ struct WhatIfInput {
 // Reads it; with what the readers have to say.
 Result<WhatIfInput> what_if_input(const TreeInput& tree,
                                   const std::vector<InputFile>& rules);
+
+// By NodeId: what does not stand below a SubTree; of a tree that is too large
+// as a whole.
+std::vector<bool> own_nodes(const BehaviorTree& tree);
 
 // Errors are those of names in the rules, and of numbers of the tree that have
 // too many values.
