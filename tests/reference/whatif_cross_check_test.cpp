@@ -130,6 +130,13 @@ WhatIfOptions options(int order) {
 
 // By the harm that they do, how many rows were compared.
 using Counts = std::map<Harm, std::size_t>;
+std::string told(const Counts& counts) {
+  std::string text;
+  for (const auto& [harm, count] : counts) {
+    text += fmt::format(" {} {}", facts_of(harm).word, count);
+  }
+  return text;
+}
 
 // What differs first, or "".
 std::string difference(const RandomMission& mission, Counts& counts) {
@@ -369,11 +376,7 @@ TEST_CASE("each fault does what it does when it is put in by hand") {
   compare(
       seed_or(1), by_effort<std::uint64_t>(100, 2000),
       [&](const RandomMission& drawn) { return difference(drawn, counts); });
-  std::string text;
-  for (const auto& [harm, count] : counts) {
-    text += fmt::format(" {} {}", facts_of(harm).word, count);
-  }
-  MESSAGE("rows:" << text);
+  MESSAGE("rows:" << told(counts));
   for (const Harm harm : {Harm::NeverEnds, Harm::Throws, Harm::Fails,
                           Harm::MayFail, Harm::Survives, Harm::NotAsked}) {
     CHECK_COVERED(counts[harm] > 5);
@@ -402,11 +405,7 @@ TEST_CASE("a part that is seen from outside leaves the rows of all others") {
         },
         draw);
   }
-  std::string text;
-  for (const auto& [harm, count] : counts) {
-    text += fmt::format(" {} {}", facts_of(harm).word, count);
-  }
-  MESSAGE("rows:" << text);
+  MESSAGE("rows:" << told(counts));
   for (const Harm harm : {Harm::Silent, Harm::NeverEnds, Harm::Throws,
                           Harm::Fails, Harm::MayFail, Harm::Survives}) {
     CHECK_COVERED(counts[harm] > 5);

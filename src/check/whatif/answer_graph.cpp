@@ -23,7 +23,7 @@ constexpr std::uint32_t kMostSequences = 0x1fffffff;
 // What is told of a state: the ends of roots, faults, and who of these runs
 // there.
 Observed told_of(const BehaviorTree& tree, const Network& network,
-                 const Heard* heard, bool with_running) {
+                 const Heard& heard, bool with_running) {
   Observed told(network);
   for (const NodeId root : tree.roots) {
     const Automaton& automaton = network.automaton(root);
@@ -33,7 +33,7 @@ Observed told_of(const BehaviorTree& tree, const Network& network,
     }
   }
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
-    if (heard != nullptr && !heard->nodes[n]) continue;
+    if (!heard.hears(NodeId{n})) continue;
     if (const auto phase = fault_phase(network, NodeId{n})) told.add(*phase);
     if (!with_running || !is_leaf(tree.nodes[n].type)) continue;
     told.add(equals(network.node_status[n], NodeStatus::Running));
@@ -102,19 +102,20 @@ struct AnswerGraph::Parts {
   Composition composition;
 };
 
+const Heard AnswerGraph::kAllHeard;
+
 AnswerGraph::AnswerGraph(const BehaviorTree& tree, const Network& network,
                          const Limits& limits, Reduction reduction,
-                         const Heard* heard)
+                         const Heard& heard)
     : tree_(tree),
       heard_(heard),
       system_(network),
-      parts_(heard == nullptr ? nullptr
-                              : std::make_unique<Parts>(network, *heard)),
+      parts_(heard.is_all() ? nullptr
+                            : std::make_unique<Parts>(network, heard)),
       searched_(
           parts_ == nullptr
-              ? SearchedNetwork(system_, told_of(tree, network, nullptr, false),
-                                told_of(tree, network, nullptr, true),
-                                reduction)
+              ? SearchedNetwork(system_, told_of(tree, network, heard, false),
+                                told_of(tree, network, heard, true), reduction)
               : SearchedNetwork(
                     system_, parts_->composition,
                     told_of(tree, parts_->composition.network(), heard, false),
@@ -123,7 +124,7 @@ AnswerGraph::AnswerGraph(const BehaviorTree& tree, const Network& network,
   const Network& stands = searched_.system().network().network();
   event_of_edge_.resize(stands.edge_count());
   for (const Automaton& automaton : stands.automata) {
-    if (automaton.kind != AutomatonKind::Node || !is_heard(automaton.node)) {
+    if (automaton.kind != AutomatonKind::Node || !heard.hears(automaton.node)) {
       continue;
     }
     // Of inner nodes that they are asked says nothing.
@@ -139,7 +140,7 @@ AnswerGraph::AnswerGraph(const BehaviorTree& tree, const Network& network,
   }
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     const auto phase =
-        is_heard(NodeId{n}) ? fault_phase(network, NodeId{n}) : std::nullopt;
+        heard.hears(NodeId{n}) ? fault_phase(network, NodeId{n}) : std::nullopt;
     if (phase) faults_.push_back({NodeId{n}, *phase});
   }
   search(limits);
@@ -306,7 +307,7 @@ std::vector<NodeId> AnswerGraph::running(std::uint32_t state) const {
   store_.load(StateId{state}, words);
   std::vector<NodeId> found;
   for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
-    if (!is_leaf(tree_.nodes[n].type) || !is_heard(NodeId{n})) continue;
+    if (!is_leaf(tree_.nodes[n].type) || !heard_.hears(NodeId{n})) continue;
     const auto status = static_cast<NodeStatus>(
         system.value(words, system.network().node_status[n]));
     if (status == NodeStatus::Running) found.push_back(NodeId{n});

@@ -75,8 +75,12 @@ inline bool has_ended(Ending ending) {
 // Nodes that are listened to while all others stand as components: runs of all
 // of the network that differ in what is heard are all there.
 struct Heard {
-  std::vector<bool> nodes;          // by NodeId; all above one are as well
+  // By NodeId; all above one are as well. Empty: all nodes.
+  std::vector<bool> nodes = {};
   ComponentStore* known = nullptr;  // of components
+
+  bool is_all() const { return nodes.empty(); }
+  bool hears(NodeId node) const { return is_all() || nodes[index(node)]; }
 };
 
 class AnswerGraph {
@@ -92,11 +96,10 @@ class AnswerGraph {
     std::uint32_t begins_with_event : 1 = 1;
   };
 
-  // Searches at once. Tree and network must outlive it. `heard`: null for all
-  // nodes.
+  // Searches at once. Tree and network must outlive it, and what is heard.
   AnswerGraph(const BehaviorTree& tree, const Network& network,
               const Limits& limits, Reduction reduction = Reduction::Full,
-              const Heard* heard = nullptr);
+              const Heard& heard = kAllHeard);
   ~AnswerGraph();
   AnswerGraph(const AnswerGraph&) = delete;
   AnswerGraph& operator=(const AnswerGraph&) = delete;
@@ -144,12 +147,10 @@ class AnswerGraph {
   void close();
 
   struct Parts;
-  bool is_heard(NodeId node) const {
-    return heard_ == nullptr || heard_->nodes[index(node)];
-  }
+  static const Heard kAllHeard;
 
   const BehaviorTree& tree_;
-  const Heard* heard_;
+  const Heard& heard_;
   CompiledNetwork system_;
   const std::unique_ptr<Parts> parts_;  // null: all stand as they are
   SearchedNetwork searched_;

@@ -116,7 +116,7 @@ class Searcher {
     if (!network.value) return std::move(network.diagnostics);
     healthy_network_ = std::move(*network.value);
     healthy_.emplace(healthy_tree_, healthy_network_, limits_, Reduction::Full,
-                     heard());
+                     heard_);
     pairs_ = on_and_off(tree_);
     std::erase_if(pairs_,
                   [&](const OnOff& pair) { return !can_be_told(pair); });
@@ -151,7 +151,7 @@ class Searcher {
     const auto network = lower_regions(tree, input_.source, options_.ticks);
     if (!network.value) return row;
     const AnswerGraph graph(tree, *network.value, limits_, Reduction::Full,
-                            heard());
+                            heard_);
     monitor_.ended(graph.progress());
     Shown shown;
     row.effect = effect_of(graph, pairs_, &result_.healthy, shown);
@@ -231,16 +231,11 @@ class Searcher {
     }
   }
 
-  const Heard* heard() const {
-    return heard_.nodes.empty() ? nullptr : &heard_;
-  }
   // What it ends by may happen unheard.
   bool can_be_told(const OnOff& pair) const {
-    const auto is_heard = [this](NodeId leaf) {
-      return heard_.nodes[index(leaf)];
-    };
-    return heard() == nullptr ||
-           (is_heard(pair.on) && std::ranges::all_of(pair.off, is_heard));
+    return heard_.hears(pair.on) &&
+           std::ranges::all_of(
+               pair.off, [this](NodeId leaf) { return heard_.hears(leaf); });
   }
 
   bool is_whole() const { return result_.healthy.stopped == StopReason::None; }

@@ -26,7 +26,7 @@ struct Suspect {
   // Moments in which it did what it should not; of one that only ran long, when
   // that began and ended.
   std::vector<std::size_t> at;
-  std::size_t answers = 0;      // that it gave in all
+  std::size_t answers = 0;  // that it gave in all
 };
 
 struct Suspects {
